@@ -34,7 +34,7 @@ pub fn amplitude(im: &mut Importer, block: &KeywordBlock) {
         return;
     };
     let all: Vec<f64> = rows.iter().flatten().copied().collect();
-    let mut card = AmplitudeCard { name, line, points: Vec::new(), sine: None, is_total };
+    let mut card = AmplitudeCard { name, line, points: Vec::new(), sine: None, is_total, harmonic: None };
     match &kind[..] {
         kind if "TABULAR".starts_with(kind) => {
             card.points = all.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()

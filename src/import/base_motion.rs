@@ -2,16 +2,18 @@
 
 use crate::build::Build;
 use crate::deck_text::{DeckTable, inline, list, number, quoted, vector};
+use crate::dialect::Dialect;
 use crate::file_content::{BaseMotion, StepProcedure};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
+use crate::step_cards;
 
 /// `*BASE MOTION`.
 pub fn base_motion(im: &mut Importer, block: &KeywordBlock) {
     let (keyword, line) = (&block.keyword, block.keyword.line);
-    let is_dynamic = matches!(im.steps.at_hand().procedure, Some((StepProcedure::Dynamic { .. }, _)));
-    if !is_dynamic {
-        return im.refuse(line, "a base moves in steps of *MODAL DYNAMIC alone");
+    let procedure = im.steps.at_hand().procedure.as_ref().map(|(procedure, _)| procedure);
+    if !matches!(procedure, Some(StepProcedure::Dynamic { .. } | StepProcedure::Response(_))) {
+        return im.refuse(line, "a base moves in steps of *MODAL DYNAMIC and *STEADY STATE DYNAMICS alone");
     }
     if keyword.has("BASENAME") {
         return im.refuse(line, "the ground is one base: move other supports by *BOUNDARY");
@@ -25,7 +27,16 @@ pub fn base_motion(im: &mut Importer, block: &KeywordBlock) {
     let Ok(scale) = keyword.value("SCALE").map_or(Ok(1.0), str::parse) else {
         return im.refuse(line, "SCALE must be a number");
     };
-    im.steps.base_motions.push(BaseMotion { line, axis: axis - 1, amplitude: amplitude.to_owned(), scale });
+    if im.dialect != Some(Dialect::Abaqus) {
+        im.change(line, "displacements are relative to the ground; CalculiX adds its motion");
+    }
+    im.steps.base_motions.push(BaseMotion {
+        line,
+        axis: axis - 1,
+        amplitude: amplitude.to_owned(),
+        scale,
+        is_imaginary: step_cards::is_imaginary(keyword),
+    });
 }
 
 /// Adds the accelerations of the ground.

@@ -216,6 +216,7 @@ pub fn tie(im: &mut Importer, block: &KeywordBlock) {
             surfaces: [slave, master].map(|word| im.target(word)),
             tolerance,
             is_hinge: keyword.has("NOROTATION"),
+            is_adjusted: !keyword.value("ADJUST").is_some_and(|word| word.eq_ignore_ascii_case("NO")),
         };
         im.constraints.ties.push(card);
     }

@@ -31,6 +31,8 @@ pub struct MaterialCard {
     pub expansion: Option<(f64, usize)>,
     /// True where it depends on temperature.
     pub has_expansions: bool,
+    /// The line that says that it takes tension alone.
+    pub no_compression: Option<usize>,
 }
 
 /// The materials of a file.
@@ -118,6 +120,8 @@ pub enum PropertyOf {
     Damper,
     /// Gaps.
     Gap,
+    /// Springs and dampers along local axes: a row of stiffnesses, a row of damping.
+    Joint,
 }
 
 /// A property as the file has it.
@@ -242,6 +246,8 @@ pub struct TieCard {
     pub tolerance: Option<f64>,
     /// True where translations alone are tied.
     pub is_hinge: bool,
+    /// True where the other program moves tied nodes onto the faces.
+    pub is_adjusted: bool,
 }
 
 /// A connector section.
@@ -301,7 +307,7 @@ pub struct ConnectorCards {
 }
 
 /// A function of time as the file has it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct AmplitudeCard {
     /// Its name.
     pub name: String,
@@ -313,6 +319,8 @@ pub struct AmplitudeCard {
     pub sine: Option<[f64; 4]>,
     /// True where times count from the start of the run.
     pub is_total: bool,
+    /// The phase in degrees of a steady motion, which has no times.
+    pub harmonic: Option<f64>,
 }
 
 impl AmplitudeCard {
@@ -353,6 +361,34 @@ pub enum StepProcedure {
     Frequency { count: Option<u64>, up_to: Option<f64>, is_complex: bool },
     /// Buckling factors.
     Buckle { count: u64 },
+    /// Steady motion under harmonic loads.
+    Response(ResponseCard),
+}
+
+/// The frequencies of a steady motion, and how it is found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ResponseCard {
+    /// The lowest and the highest frequency.
+    pub range: [f64; 2],
+    /// So many of them.
+    pub points: u64,
+    /// True where they are spaced by equal factors.
+    pub is_logarithmic: bool,
+    /// True where they are gathered about natural frequencies.
+    pub is_gathered: bool,
+    /// True where the equations are solved at each frequency, false where modes add up.
+    pub is_direct: bool,
+    /// The number of modes, or the highest of their frequencies.
+    pub modes: (Option<u64>, Option<f64>),
+}
+
+/// Damping by modes in a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ModalDamping {
+    /// The damping ratio of all modes.
+    Ratio(f64),
+    /// Rayleigh's alpha and beta.
+    Rayleigh([f64; 2]),
 }
 
 /// A support on a line of `*BOUNDARY`.
@@ -370,6 +406,8 @@ pub struct SupportLine {
     pub amplitude: Option<String>,
     /// "displacement", "velocity" or "acceleration".
     pub history: &'static str,
+    /// True for the imaginary part of a steady motion.
+    pub is_imaginary: bool,
     /// True where it holds the position reached so far.
     pub is_fixed: bool,
 }
@@ -389,6 +427,8 @@ pub struct ForceLine {
     pub amplitude: Option<String>,
     /// True where it turns with its node.
     pub is_follower: bool,
+    /// True for the imaginary part of a steady motion.
+    pub is_imaginary: bool,
 }
 
 /// A temperature on a line of `*TEMPERATURE` or of initial conditions.
@@ -417,6 +457,8 @@ pub struct SpreadLine {
     pub kind: String,
     /// Magnitude, then further numbers.
     pub values: Vec<f64>,
+    /// True for the imaginary part of a steady motion.
+    pub is_imaginary: bool,
     /// The name of an amplitude.
     pub amplitude: Option<String>,
 }
@@ -465,6 +507,8 @@ pub struct StepCard {
     pub temperatures: Vec<TemperatureLine>,
     /// True where earlier temperatures end.
     pub new_temperatures: bool,
+    /// Damping by modes, and its line.
+    pub damping: Option<(ModalDamping, usize)>,
 }
 
 impl StepCard {
@@ -496,6 +540,8 @@ pub struct BaseMotion {
     pub amplitude: String,
     /// The factor of the amplitude.
     pub scale: f64,
+    /// True for the imaginary part of a steady motion.
+    pub is_imaginary: bool,
 }
 
 /// All steps of a file.

@@ -3,8 +3,8 @@
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::{
-    amplitude_cards, base_motion, connector_cards, constraint_cards, material_cards, mesh_cards, nodal_axes,
-    property_cards, section_cards, step_cards, temperatures,
+    amplitude_cards, base_motion, connector_cards, constraint_cards, harmonics, material_cards, mesh_cards,
+    mesh_makers, nodal_axes, property_cards, section_cards, step_cards, temperatures,
 };
 use std::fmt::Write;
 
@@ -64,6 +64,16 @@ const OPTIMIZE: &str = "rdsolve computes no sensitivities";
 pub const KEYWORDS: &[KeywordRow] = &[
     read("NODE", "NSET SYSTEM INPUT", mesh_cards::nodes, "nodes of the mesh"),
     read("ELEMENT", "TYPE ELSET OFFSET INPUT", mesh_cards::elements, "elements of the mesh, by their type"),
+    read("NGEN", "NSET LINE SYSTEM", mesh_makers::between_nodes, "nodes of the mesh"),
+    read("NFILL", "NSET BIAS TWOSTEP SINGULAR", mesh_makers::between_sets, "nodes of the mesh"),
+    read("NCOPY", "OLDSET NEWSET CHANGENUMBER SHIFT MULTIPLE", mesh_makers::copied_nodes, "nodes of the mesh"),
+    read("ELGEN", "ELSET", mesh_makers::rows_of_elements, "elements of the mesh"),
+    read(
+        "ELCOPY",
+        "OLDSET NEWSET ELEMENTSHIFT SHIFTNODES REFLECT",
+        mesh_makers::copied_elements,
+        "elements of the mesh",
+    ),
     read("NSET", "NSET ELSET GENERATE INSTANCE INTERNAL UNSORTED INPUT", mesh_cards::node_sets, "a set of nodes"),
     read("ELSET", "ELSET GENERATE INSTANCE INTERNAL UNSORTED INPUT", mesh_cards::element_sets, "a set of elements"),
     read("SURFACE", "NAME TYPE INTERNAL", mesh_cards::surfaces, "where loads and couplings act"),
@@ -91,6 +101,12 @@ pub const KEYWORDS: &[KeywordRow] = &[
         section_cards::shell,
         "[[shells]]",
     ),
+    read(
+        "SHELL GENERAL SECTION",
+        "ELSET MATERIAL OFFSET ORIENTATION COMPOSITE NODALTHICKNESS SHELLTHICKNESS POISSON THICKNESSMODULUS CONTROLS",
+        section_cards::general_shell,
+        "[[shells]], of one material",
+    ),
     read("SOLID SECTION", "ELSET MATERIAL ORIENTATION CONTROLS", section_cards::solid, "[[bars]] area, of trusses"),
     read(
         "NODAL THICKNESS",
@@ -116,6 +132,7 @@ pub const KEYWORDS: &[KeywordRow] = &[
     read("ROTARY INERTIA", "ELSET ALPHA ORIENTATION", property_cards::inertia, "[[masses]] inertia, or that of a body"),
     read("SPRING", "ELSET NONLINEAR ORIENTATION", property_cards::spring, "[[links]]"),
     read("DASHPOT", "ELSET ORIENTATION", property_cards::dashpot, "[[links]] damping"),
+    read("JOINT", "ELSET ORIENTATION", property_cards::joint, "[[links]] bushing"),
     read("GAP", "ELSET", property_cards::gap, "[[links]] with a gap"),
     read(
         "RIGID BODY",
@@ -154,7 +171,7 @@ pub const KEYWORDS: &[KeywordRow] = &[
         amplitude_cards::amplitude,
         "[amplitudes]",
     ),
-    read("BOUNDARY", "OP AMPLITUDE FIXED TYPE", step_cards::boundary, "[[supports]]"),
+    read("BOUNDARY", "OP AMPLITUDE FIXED TYPE LOADCASE REAL IMAGINARY", step_cards::boundary, "[[supports]]"),
     read("INITIAL CONDITIONS", "TYPE", step_cards::initial_conditions, "[[initial]]"),
     read(
         "STEP",
@@ -178,17 +195,34 @@ pub const KEYWORDS: &[KeywordRow] = &[
         "natural modes",
     ),
     read("COMPLEX FREQUENCY", "CORIOLIS FRICTIONDAMPING", step_cards::complex_frequency, "complex modes"),
+    read(
+        "STEADY STATE DYNAMICS",
+        "DIRECT HARMONIC SOLVER INTERVAL FREQUENCYSCALE FRICTIONDAMPING",
+        harmonics::steady_state,
+        "a frequency response",
+    ),
+    read(
+        "MODAL DAMPING",
+        "MODAL RAYLEIGH DEFINITION STRUCTURAL VISCOUS",
+        harmonics::modal_damping,
+        "damping_ratio of the response, or [damping]",
+    ),
     read("BUCKLE", "EIGENSOLVER SOLVER", step_cards::buckle, "buckling factors"),
     read(
         "BASE MOTION",
-        "AMPLITUDE BASENAME DOF SCALE TYPE",
+        "AMPLITUDE BASENAME DOF SCALE TYPE LOADCASE REAL IMAGINARY",
         base_motion::base_motion,
-        "[environment] base_acceleration, in *MODAL DYNAMIC",
+        "[environment] base_acceleration",
     ),
-    read("CLOAD", "OP AMPLITUDE FOLLOWER LOADCASE", step_cards::forces, "[[loads]] force, moment"),
+    read("CLOAD", "OP AMPLITUDE FOLLOWER LOADCASE REAL IMAGINARY", step_cards::forces, "[[loads]] force, moment"),
     read("TEMPERATURE", "OP AMPLITUDE", temperatures::temperatures, "[[loads]] temperature, temperature_gradient"),
-    read("DLOAD", "OP AMPLITUDE", step_cards::element_loads, "[[loads]] by length or area, or gravity"),
-    read("DSLOAD", "OP AMPLITUDE", step_cards::surface_loads, "[[loads]] pressure"),
+    read(
+        "DLOAD",
+        "OP AMPLITUDE LOADCASE REAL IMAGINARY",
+        step_cards::element_loads,
+        "[[loads]] by length or area, or gravity",
+    ),
+    read("DSLOAD", "OP AMPLITUDE LOADCASE REAL IMAGINARY", step_cards::surface_loads, "[[loads]] pressure"),
     read("NODE PRINT", "NSET FREQUENCY TOTALS GLOBAL TIMEPOINTS OUTPUT SUMMARY", step_cards::node_output, "[output]"),
     read(
         "NODE FILE",
@@ -217,7 +251,7 @@ pub const KEYWORDS: &[KeywordRow] = &[
         "[output] fields",
     ),
     read("HEADING", "", step_cards::heading, "title"),
-    read("NO COMPRESSION", "", section_cards::no_compression, "[[bars]] tension_only"),
+    read("NO COMPRESSION", "", material_cards::no_compression, "[[bars]] tension_only"),
     ignore("PREPRINT", SOLVER),
     ignore("RESTART", OUTPUT),
     ignore("PHYSICAL CONSTANTS", "constants of radiation and gravitation"),
@@ -246,13 +280,6 @@ pub const KEYWORDS: &[KeywordRow] = &[
     ignore("CONDUCTIVITY", "no temperature changes"),
     ignore("USER OUTPUT VARIABLES", OUTPUT),
     ignore("NO ANALYSIS", "the other program only checks the file"),
-    refuse(
-        "STEADY STATE DYNAMICS",
-        "frequency responses are not translated yet; write [analysis] kind = \"frequency-response\"",
-    ),
-    refuse("MODAL DAMPING", "damping by mode is not translated; give the materials *DAMPING, or [damping] in the deck"),
-    refuse("JOINT", "springs of JOINTC elements are not translated; use CONN3D2 with CARTESIAN and CARDAN"),
-    refuse("SHELL GENERAL SECTION", "rdsolve has no shells by their stiffness"),
     refuse("MEMBRANE SECTION", "rdsolve has no membranes"),
     refuse("SURFACE SECTION", "rdsolve has no surface elements"),
     refuse("COHESIVE SECTION", "rdsolve has no cohesive elements"),
@@ -340,12 +367,7 @@ pub const KEYWORDS: &[KeywordRow] = &[
     refuse("DESIGN RESPONSE", OPTIMIZE),
     refuse("DESIGN VARIABLES", OPTIMIZE),
     refuse("FEASIBLE DIRECTION", OPTIMIZE),
-    refuse("NGEN", MESH),
-    refuse("NFILL", MESH),
-    refuse("NCOPY", MESH),
     refuse("NMAP", MESH),
-    refuse("ELGEN", MESH),
-    refuse("ELCOPY", MESH),
     refuse("SYSTEM", MESH),
     refuse("PARAMETER", MESH),
     refuse("INCLUDE", "this file could not be included"),

@@ -2,7 +2,7 @@
 
 use crate::build::Build;
 use crate::deck_text::{DeckTable, list, vector};
-use crate::file_content::{AmplitudeCard, StepCard};
+use crate::file_content::{AmplitudeCard, StepCard, StepProcedure};
 use crate::timeline::{GivenValue, InStep, StageOfStep, TimeLaw};
 
 /// A value jumps within this part of a step.
@@ -101,6 +101,24 @@ impl Build<'_, '_, '_> {
         points
     }
 
+    /// The law of a load that acts in one stage alone.
+    pub fn law_in(&mut self, stage: &str, given: &GivenValue) -> TimeLaw {
+        let amplitude = given.amplitude.as_ref().and_then(|name| self.amplitude_of_file(name, given.line));
+        TimeLaw { scale: given.value, amplitude, stages: Some(vec![stage.to_owned()]) }
+    }
+
+    /// Stages of buckling factors and steady motions beside steps that advance time, and the indices of their steps.
+    pub fn stages_with_own_loads(&self) -> Vec<(String, usize)> {
+        let is_own = |at: usize| {
+            let procedure = self.im.steps.list[self.timeline.stages[at].step].procedure.as_ref();
+            matches!(procedure, Some((StepProcedure::Buckle { .. } | StepProcedure::Response(_), _)))
+                && !self.timeline.general.contains(&at)
+        };
+        let count = if self.timeline.is_staged() { self.timeline.stages.len() } else { 0 };
+        let stages = (0..count).filter(|at| is_own(*at)).map(|at| &self.timeline.stages[at]);
+        stages.map(|stage| (stage.name.clone(), stage.step)).collect()
+    }
+
     /// The largest value of a sine of the file, which is 1 in the deck; 1 for other amplitudes.
     pub fn over_sine(&self, name: &str) -> f64 {
         let card = self.im.amplitudes.iter().rfind(|card| card.name.to_lowercase() == name.to_lowercase());
@@ -115,6 +133,11 @@ impl Build<'_, '_, '_> {
             return None;
         };
         let table = DeckTable::new("amplitudes", card.line);
+        if let Some(phase) = card.harmonic {
+            let table = table.text("kind", "harmonic");
+            let table = if phase == 0.0 { table } else { table.number("phase_degrees", phase) };
+            return Some(self.amplitude(card.name.trim_start_matches('*'), table));
+        }
         let table = match card.sine {
             Some([frequency, phase, _, start]) => {
                 let table = table.text("kind", "sine").number("frequency", frequency).number("phase", phase);

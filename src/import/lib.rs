@@ -22,6 +22,7 @@ mod element_types;
 mod equations;
 mod file_content;
 mod flat_mesh;
+mod harmonics;
 mod importer;
 mod joints;
 mod keyword_block;
@@ -32,6 +33,7 @@ mod links;
 mod loads;
 mod material_cards;
 mod mesh_cards;
+mod mesh_makers;
 mod mesh_text;
 mod nodal_axes;
 mod output;
@@ -142,7 +144,8 @@ fn read(im: &mut Importer, block: &KeywordBlock, row: Option<&'static keywords::
 fn largest(blocks: &[KeywordBlock]) -> u64 {
     let numbered = blocks.iter().filter(|block| ["NODE", "ELEMENT"].contains(&block.keyword.key().as_str()));
     let first = numbered.flat_map(|block| &block.data).filter_map(|data| data.words.first()?.whole());
-    first.filter(|id| *id <= u64::from(u32::MAX)).max().unwrap_or(0)
+    let largest = first.filter(|id| *id <= u64::from(u32::MAX)).max().unwrap_or(0);
+    mesh_makers::largest(blocks, largest)
 }
 
 /// True where nodes or elements stand in the assembly itself.

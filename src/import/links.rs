@@ -54,6 +54,7 @@ pub fn links(build: &mut Build) {
                 | (PropertyOf::Damper, ElementUse::GroundDamper | ElementUse::DirectedDamper) => {
                     directed(build, &card, &cell.nodes, table)
                 }
+                (PropertyOf::Joint, ElementUse::JointC) => joint(build, &card, &cell.nodes, table),
                 (PropertyOf::Gap, ElementUse::Gap) => gap(build, &card, &cell.nodes, table),
                 _ => {
                     build.im.refuse(card.line, &format!("element {} is none of this property", cell.id));
@@ -135,18 +136,34 @@ fn directed(build: &mut Build, card: &PropertyCard, nodes: &[u64], table: DeckTa
         let about = if card.orientation.is_some() { 3..6 } else { degrees[0]..degrees[0] + 1 };
         build.turning.extend(nodes.iter().flat_map(|node| about.clone().map(|dof| (*node, dof))));
     }
-    let mut table = table.value("from", from).value("to", to);
-    table = match card.of {
+    let table = table.value("from", from).value("to", to);
+    let table = match card.of {
         PropertyOf::Damper => table.numbers("bushing", &[0.0; 6]).numbers("bushing_damping", &six),
         _ => table.numbers("bushing", &six),
     };
-    if let Some(name) = &card.orientation {
-        table = match build.im.axes.get(&name.to_lowercase()) {
-            Some(Some(axes)) => table.value("axes", list(axes.iter().map(|axis| vector(axis.as_slice())))),
-            _ => table,
-        };
+    Some(along(build, card, table))
+}
+
+/// Springs and dampers between two nodes along axes that turn with the first.
+fn joint(build: &mut Build, card: &PropertyCard, nodes: &[u64], table: DeckTable) -> Option<DeckTable> {
+    let (a, b) = (nodes[0], nodes[1]);
+    let turns = (3..6).filter(|dof| card.rows.iter().any(|row| row[*dof] != 0.0)).collect::<Vec<usize>>();
+    let turns = if card.orientation.is_some() && !turns.is_empty() { vec![3, 4, 5] } else { turns };
+    build.tied.bushed.extend(nodes);
+    build.turning.extend(nodes.iter().flat_map(|node| turns.iter().map(|dof| (*node, *dof))));
+    let table = table.value("from", build.end(a, b)).value("to", build.end(b, a)).numbers("bushing", &card.rows[0]);
+    let is_damped = card.rows[1].iter().any(|x| *x != 0.0);
+    let table = if is_damped { table.numbers("bushing_damping", &card.rows[1]) } else { table };
+    Some(along(build, card, table))
+}
+
+/// Adds the local axes of a property.
+fn along(build: &Build, card: &PropertyCard, table: DeckTable) -> DeckTable {
+    let axes = card.orientation.as_ref().and_then(|name| build.im.axes.get(&name.to_lowercase()).copied().flatten());
+    match axes {
+        Some(axes) => table.value("axes", list(axes.iter().map(|axis| vector(axis.as_slice())))),
+        None => table,
     }
-    Some(table)
 }
 
 /// A gap.

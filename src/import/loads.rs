@@ -10,8 +10,8 @@ use crate::timeline::{GivenValue, InStep, TimeLaw, histories};
 use base::math::Mat3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// Node, degree of freedom, and whether the force turns with the node.
-type ForceKey = (u64, usize, bool);
+/// Node, degree of freedom, whether the force turns with the node, and whether it is an imaginary part.
+type ForceKey = (u64, usize, bool, bool);
 
 /// Velocity and angular velocity, their nodes, and their lines.
 type MovingNodes = ([f64; 6], BTreeSet<u64>, BTreeSet<usize>);
@@ -54,7 +54,7 @@ pub fn loads(build: &mut Build) {
         let law = build.law(&history, false);
         laws.push((key, law, lines));
     }
-    laws.extend(of_buckling(build, &of));
+    laws.extend(of_own_steps(build, &of));
     let mut groups: BTreeMap<String, AlikeForces> = BTreeMap::new();
     let forces = by_node(laws, &build.tied.axes).into_iter().map(|(node, one)| (node, one.six, one)).collect();
     for (node, six, one) in distributing::spread(build, forces) {
@@ -98,23 +98,15 @@ pub fn lines_of(history: &[InStep]) -> Vec<usize> {
     history.iter().filter_map(|state| if let InStep::Begins(given) = state { Some(given.line) } else { None }).collect()
 }
 
-/// Forces of steps of buckling factors act in these steps alone.
-fn of_buckling(
-    build: &Build,
+/// Forces of buckling factors and of steady motions act in their own stages alone.
+fn of_own_steps(
+    build: &mut Build,
     of: &impl Fn(&[ForceLine]) -> Vec<(ForceKey, GivenValue)>,
 ) -> Vec<(ForceKey, TimeLaw, Vec<usize>)> {
     let mut laws = Vec::new();
-    if !build.timeline.is_staged() {
-        return laws;
-    }
-    for (at, stage) in build.timeline.stages.iter().enumerate() {
-        let step = &build.im.steps.list[stage.step];
-        let is_buckling = matches!(step.procedure, Some((StepProcedure::Buckle { .. }, _)));
-        if !is_buckling || build.timeline.general.contains(&at) {
-            continue;
-        }
-        for (key, given) in of(&step.forces) {
-            let law = TimeLaw { scale: given.value, amplitude: None, stages: Some(vec![stage.name.clone()]) };
+    for (stage, step) in build.stages_with_own_loads() {
+        for (key, given) in of(&build.im.steps.list[step].forces) {
+            let law = build.law_in(&stage, &given);
             laws.push((key, law, vec![given.line]));
         }
     }
@@ -124,7 +116,7 @@ fn of_buckling(
 /// Forces of each node with one law in time.
 fn by_node(laws: Vec<(ForceKey, TimeLaw, Vec<usize>)>, axes: &HashMap<u64, Mat3>) -> Vec<(u64, AlikeForces)> {
     let mut nodes: BTreeMap<(u64, bool, String), AlikeForces> = BTreeMap::new();
-    for ((node, dof, is_follower), law, lines) in laws.into_iter().filter(|(_, law, _)| law.scale != 0.0) {
+    for ((node, dof, is_follower, _), law, lines) in laws.into_iter().filter(|(_, law, _)| law.scale != 0.0) {
         let key = (node, is_follower, format!("{:?} {:?}", law.amplitude, law.stages));
         let alike = nodes.entry(key).or_default();
         let axis = axes.get(&node).map_or(Mat3::identity(), |axes| *axes).column(dof % 3) * law.scale;
@@ -157,7 +149,7 @@ fn given(build: &mut Build, line: &ForceLine) -> Vec<(ForceKey, GivenValue)> {
             continue;
         }
         let value = GivenValue { value: line.value, amplitude: line.amplitude.clone(), line: line.line };
-        given.push(((node, dof, line.is_follower), value));
+        given.push(((node, dof, line.is_follower, line.is_imaginary), value));
     }
     given
 }

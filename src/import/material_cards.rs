@@ -75,6 +75,13 @@ pub fn density(im: &mut Importer, block: &KeywordBlock) {
     }
 }
 
+/// `*NO COMPRESSION`: bars of this material take tension alone.
+pub fn no_compression(im: &mut Importer, block: &KeywordBlock) {
+    if let Some(material) = at_hand(im, block.keyword.line) {
+        material.no_compression = Some(block.keyword.line);
+    }
+}
+
 /// `*EXPANSION`.
 pub fn expansion(im: &mut Importer, block: &KeywordBlock) {
     let line = block.keyword.line;

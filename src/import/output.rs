@@ -4,12 +4,13 @@ use crate::build::Build;
 use crate::deck_text::{DeckTable, inline, quoted};
 use crate::dialect::Dialect;
 use crate::file_content::PropertyOf;
+use crate::harmonics;
 
 /// Says where damping of a material acts beyond its elements.
 fn say_what_is_damped(build: &mut Build, line: usize, [alpha, beta]: [f64; 2]) {
     let has = |of: &[PropertyOf]| build.im.properties.iter().any(|card| of.contains(&card.of));
     let mut behaviors = build.im.connectors.behaviors.iter();
-    let springs = has(&[PropertyOf::Spring, PropertyOf::Gap])
+    let springs = has(&[PropertyOf::Spring, PropertyOf::Gap, PropertyOf::Joint])
         || behaviors.any(|behavior| behavior.stiffness.iter().any(Option::is_some));
     let masses = has(&[PropertyOf::Mass, PropertyOf::Inertia]);
     if beta != 0.0 && springs {
@@ -22,7 +23,12 @@ fn say_what_is_damped(build: &mut Build, line: usize, [alpha, beta]: [f64; 2]) {
 
 /// Adds `[damping]` and `[output]`.
 pub fn output(build: &mut Build) {
+    let of_modes = harmonics::rayleigh(build.im);
+    if let Some(([alpha, beta], line)) = of_modes {
+        build.deck.add(DeckTable::new("damping", line).number("mass_factor", alpha).number("stiffness_factor", beta));
+    }
     match build.im.materials.damping() {
+        _ if of_modes.is_some() => {}
         Ok(Some([alpha, beta])) => {
             let line = build.im.materials.list.iter().find(|material| material.damping.is_some()).map_or(0, |m| m.line);
             say_what_is_damped(build, line, [alpha, beta]);

@@ -312,6 +312,9 @@ fn material(build: &mut Build, card: &SectionCard, names: &mut HashMap<String, S
         build.im.refuse(material.line, "a material of beams and shells needs *ELASTIC");
         return None;
     }
+    if let Some(line) = material.no_compression.filter(|_| !matches!(card.what, SectionOf::Bar(_))) {
+        build.im.refuse(line, "bars alone take tension alone in rdsolve");
+    }
     let is_heated = build.im.is_heated();
     let name = names.entry(material.name.to_lowercase()).or_insert_with(|| {
         build.deck.add(material_cards::table(&material, &material.name, is_heated));
@@ -501,6 +504,7 @@ fn at_corners(build: &mut Build, varying: &BTreeMap<u64, f64>) -> String {
 
 /// Adds a bar for each element.
 fn bars(build: &mut Build, card: &SectionCard, piece: &mut PartPiece, material: &str) {
+    let is_slack = build.im.materials.find(&card.material).is_some_and(|of| of.no_compression.is_some());
     for (_, id, nodes) in &piece.elements.clone() {
         let name = build.deck.unique(&format!("{}_{id}", piece.name));
         let path = list(nodes.iter().map(|node| format!("\"mesh.{node}\"")));
@@ -509,6 +513,7 @@ fn bars(build: &mut Build, card: &SectionCard, piece: &mut PartPiece, material: 
             .value("path", path)
             .text("material", material)
             .number("area", piece.size);
+        let table = if is_slack { table.value("tension_only", "true") } else { table };
         piece.names.push(name);
         build.deck.add(table);
     }

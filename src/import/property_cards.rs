@@ -9,6 +9,10 @@ use base::text_file::cards::Data;
 
 fn property(im: &mut Importer, block: &KeywordBlock, of: PropertyOf) {
     let line = block.keyword.line;
+    let joint = im.properties.last().is_some_and(|card| card.of == PropertyOf::Joint);
+    if block.keyword.value("ELSET").is_none() && joint && matches!(of, PropertyOf::Spring | PropertyOf::Damper) {
+        return law_of_joint(im, block, usize::from(of == PropertyOf::Damper));
+    }
     let Some(set) = block.keyword.value("ELSET") else {
         return im.refuse(line, &format!("*{} needs ELSET=", block.keyword.name));
     };
@@ -33,6 +37,40 @@ fn property(im: &mut Importer, block: &KeywordBlock, of: PropertyOf) {
         rows,
         has_degrees,
     });
+}
+
+/// `*JOINT`: the springs and dampers on the following lines act along local axes of its elements.
+pub fn joint(im: &mut Importer, block: &KeywordBlock) {
+    let line = block.keyword.line;
+    let Some(set) = block.keyword.value("ELSET") else { return im.refuse(line, "*JOINT needs ELSET=") };
+    im.properties.push(PropertyCard {
+        of: PropertyOf::Joint,
+        line,
+        target: im.set_target(set, line),
+        is_nonlinear: false,
+        orientation: block.keyword.value("ORIENTATION").map(str::to_owned),
+        rows: vec![vec![0.0; 6]; 2],
+        has_degrees: true,
+    });
+}
+
+/// A spring or a damper of a joint: its axis, then its value.
+fn law_of_joint(im: &mut Importer, block: &KeywordBlock, row: usize) {
+    let line = block.keyword.line;
+    let lines: Vec<&Data> = block.data.iter().filter(|data| data.filled() > 0).collect();
+    let [first, second] = lines[..] else {
+        return im.refuse(line, "in a *JOINT its axis, from 1 to 6, and its stiffness or damping are needed");
+    };
+    if block.keyword.has("NONLINEAR") {
+        return im.refuse(line, "springs and dampers of a *JOINT are linear in rdsolve");
+    }
+    let axis = im.id(first, 0).filter(|axis| (1..=6).contains(axis));
+    let (Some(axis), Some(value)) = (axis, im.number_at(second, 0)) else {
+        return im.refuse(line, "in a *JOINT its axis, from 1 to 6, and its stiffness or damping are needed");
+    };
+    if let Some(card) = im.properties.last_mut() {
+        card.rows[row][axis as usize - 1] += value;
+    }
 }
 
 /// `*MASS`.

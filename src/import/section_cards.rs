@@ -9,6 +9,12 @@ use crate::thin_sections::{self, KeysAndCentroid};
 use base::math::Vec3;
 use base::text_file::Word;
 
+/// Why the size of a circle is not known.
+const CIRCLE: &str =
+    "SECTION=CIRC has the radius in Abaqus and the diameter in CalculiX: say --from abaqus or --from calculix";
+/// How to say another shape.
+const OTHERS: &str = "give its walls by SECTION=ARBITRARY, or its moments by SECTION=GENERAL";
+
 /// Elements and material of a section; refuses what lacks them.
 fn section(im: &mut Importer, block: &KeywordBlock) -> Option<SectionCard> {
     let line = block.keyword.line;
@@ -56,6 +62,14 @@ pub fn shell(im: &mut Importer, block: &KeywordBlock) {
     if let Some(card) = section(im, block) {
         im.sections.push(SectionCard { what: SectionOf::Shell { thickness, points, offset }, ..card });
     }
+}
+
+/// `*SHELL GENERAL SECTION` with a material and a thickness; stiffnesses are refused.
+pub fn general_shell(im: &mut Importer, block: &KeywordBlock) {
+    if block.keyword.value("MATERIAL").is_none() {
+        return im.refuse(block.keyword.line, "shells have a material and a thickness in rdsolve, not stiffnesses");
+    }
+    shell(im, block);
 }
 
 /// `*NODAL THICKNESS`.
@@ -125,8 +139,9 @@ fn read_beam(im: &mut Importer, block: &KeywordBlock, is_general: bool) {
         }),
     };
     let shares = [read("OFFSET1"), read("OFFSET2")];
-    let Some(sides) = sides(&keys).or((shares == [0.0; 2]).then_some([0.0; 2])) else {
-        return im.refuse(line, "OFFSET1 and OFFSET2 are read of rectangles, boxes and tubes alone");
+    let ellipse = || (word == "CIRC").then(|| sizes.get(..2)).flatten().map(|axes| [axes[0], axes[1]]);
+    let Some(sides) = sides(&keys).or_else(ellipse).or((shares == [0.0; 2]).then_some([0.0; 2])) else {
+        return im.refuse(line, "OFFSET1 and OFFSET2 are read of rectangles, boxes, tubes and ellipses alone");
     };
     // The file has the place of the nodes over the axis, the deck that of the axis over the nodes.
     let offset = [0, 1].map(|i| centroid[i] - shares[i] * sides[i]);
@@ -181,11 +196,7 @@ fn shape(word: &str, sizes: &[f64], dialect: Option<Dialect>) -> Result<KeysAndC
         "CIRC" => {
             needs(1)?;
             let radius = match dialect {
-                None => {
-                    return Err("SECTION=CIRC has the radius in Abaqus and the diameter in CalculiX: say --from abaqus or --from \
-                                calculix"
-                        .to_owned());
-                }
+                None => return Err(CIRCLE.to_owned()),
                 Some(Dialect::Abaqus) => sizes[0],
                 Some(Dialect::Calculix) if sizes.get(1).is_some_and(|other| *other != sizes[0]) => {
                     return Ok((ellipse(sizes[0], sizes[1]), [0.0; 2]));
@@ -219,7 +230,7 @@ fn shape(word: &str, sizes: &[f64], dialect: Option<Dialect>) -> Result<KeysAndC
             needs(4)?;
             general(sizes, dialect)
         }
-        _ => return Err(format!("SECTION={word} is not translated; give its area and moments by SECTION=GENERAL")),
+        _ => return Err(format!("SECTION={word} is not translated; {OTHERS}")),
     };
     Ok((keys, [0.0; 2]))
 }
@@ -281,12 +292,4 @@ fn general(sizes: &[f64], dialect: Option<Dialect>) -> Vec<(&'static str, Sectio
         keys.push(("product_moment", Number(sizes[2])));
     }
     keys
-}
-
-/// `*NO COMPRESSION`: the sets of bars that take tension alone.
-pub fn no_compression(im: &mut Importer, block: &KeywordBlock) {
-    im.refuse(
-        block.keyword.line,
-        "which bars take tension alone is not read; set `tension_only = true` of [[bars]] in the deck",
-    );
 }

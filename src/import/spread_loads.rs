@@ -1,10 +1,10 @@
 //! Loads per length and per area, and gravity.
 
 use crate::build::Build;
-use crate::deck_text::DeckTable;
+use crate::deck_text::{DeckTable, inline, number, vector};
 use crate::dialect::Dialect;
 use crate::element_types::ElementUse;
-use crate::file_content::{SpreadLine, StepProcedure};
+use crate::file_content::SpreadLine;
 use crate::loads::{in_time, lines_of, refuse_two_laws};
 use crate::part_piece::PartPiece;
 use crate::scopes::NamedTarget;
@@ -17,7 +17,8 @@ type SpreadKey = (bool, NamedTarget, String, String);
 
 fn key(line: &SpreadLine) -> SpreadKey {
     let target = NamedTarget { line: 0, name: line.target.name.to_lowercase(), ..line.target.clone() };
-    (line.is_surface, target, line.kind.clone(), format!("{:?}", line.values.get(1..).unwrap_or_default()))
+    let rest = format!("{:?} {}", line.values.get(1..).unwrap_or_default(), line.is_imaginary);
+    (line.is_surface, target, line.kind.clone(), rest)
 }
 
 fn value_of(line: &SpreadLine) -> GivenValue {
@@ -43,13 +44,13 @@ pub fn spread_loads(build: &mut Build) {
     let steps = &build.im.steps.list;
     let lines: Vec<SpreadLine> = steps.iter().flat_map(|step| step.spread.clone()).collect();
     let all = histories(&build.timeline, steps, Vec::new(), |step| given(&step.spread), |step| step.new_spread);
-    let mut of_buckling = Vec::new();
-    for (at, stage) in build.timeline.stages.iter().enumerate().filter(|_| build.timeline.is_staged()) {
-        let step = &steps[stage.step];
-        if matches!(step.procedure, Some((StepProcedure::Buckle { .. }, _))) && !build.timeline.general.contains(&at) {
-            of_buckling.extend(given(&step.spread).into_iter().map(|(key, given)| (key, given, stage.name.clone())));
-        }
-    }
+    let own: Vec<_> = build
+        .stages_with_own_loads()
+        .into_iter()
+        .flat_map(|(stage, step)| {
+            given(&build.im.steps.list[step].spread).into_iter().map(move |one| (stage.clone(), one))
+        })
+        .collect();
     for (of, history) in all {
         let at = lines_of(&history);
         let law = build.law(&history, false);
@@ -57,8 +58,8 @@ pub fn spread_loads(build: &mut Build) {
             one(build, &line, &law, (&at, &history));
         }
     }
-    for (of, given, stage) in of_buckling {
-        let law = TimeLaw { scale: given.value, amplitude: None, stages: Some(vec![stage]) };
+    for (stage, (of, given)) in own {
+        let law = build.law_in(&stage, &given);
         if let Some(line) = lines.iter().find(|line| key(line) == of).cloned() {
             one(build, &line, &law, (&[given.line], &[]));
         }
@@ -99,6 +100,9 @@ fn one(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history): (&
     }
     if line.kind == "GRAV" {
         return gravity(build, line, law, (lines, history));
+    }
+    if matches!(&line.kind[..], "CENTRIF" | "CENT") && !line.is_surface {
+        return rotation(build, line, law, lines);
     }
     if line.is_surface {
         return surface(build, line, law, lines);
@@ -146,11 +150,6 @@ fn one(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history): (&
 /// Why a kind of load is not translated.
 fn reason(kind: &str) -> String {
     match kind {
-        "CENTRIF" | "CENT" => {
-            format!(
-                "loads of kind {kind} are not translated; give `centrifugal` in [[loads]], with the root of its magnitude as `speed`"
-            )
-        }
         "ROTA" | "CORIO" => {
             format!("loads of kind {kind} act in a rotating frame; give the parts an angular velocity instead")
         }
@@ -219,17 +218,9 @@ fn gravity(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history)
     let Some(direction) = Vec3::new(of(1), of(2), of(3)).try_normalize(0.0) else {
         return build.im.refuse(line.line, "GRAV needs the direction behind its magnitude");
     };
-    if !line.target.name.is_empty() {
-        let cells: BTreeSet<usize> = build.cells(&line.target).into_iter().collect();
-        let is_mass = |at: &usize| build.im.scopes.types[build.mesh.cells[*at].kind].becomes == ElementUse::PointMass;
-        let is_beside = (0..build.mesh.cells.len()).filter(is_mass).any(|at| !cells.contains(&at));
-        let mut heavy = build.pieces.iter().filter(|piece| piece.density > 0.0);
-        if is_beside || heavy.any(|piece| !piece.cells.is_subset(&cells)) {
-            return build.im.refuse(
-                line.line,
-                "gravity acts on everything in rdsolve, and this set does not hold all that has mass",
-            );
-        }
+    if !line.target.name.is_empty() && has_mass_beside(build, &line.target) {
+        let why = "gravity acts on everything in rdsolve, and this set does not hold all that has mass";
+        return build.im.refuse(line.line, why);
     }
     if build.has_gravity {
         return build.im.refuse(line.line, "gravity has one direction and one amplitude in rdsolve");
@@ -242,4 +233,49 @@ fn gravity(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history)
         Some(name) => table.text("gravity_amplitude", name),
         None => table,
     });
+}
+
+/// True where something that has mass is in no element of this set.
+fn has_mass_beside(build: &mut Build, target: &NamedTarget) -> bool {
+    let cells: BTreeSet<usize> = build.cells(target).into_iter().collect();
+    let is_beside = |at: &usize| !cells.contains(at);
+    let mut heavy = build.pieces.iter().filter(|piece| piece.density > 0.0);
+    point_masses(build).iter().any(is_beside) || heavy.any(|piece| !piece.cells.is_subset(&cells))
+}
+
+/// Elements that are point masses.
+fn point_masses(build: &Build) -> Vec<usize> {
+    let is_mass = |at: &usize| build.im.scopes.types[build.mesh.cells[*at].kind].becomes == ElementUse::PointMass;
+    (0..build.mesh.cells.len()).filter(is_mass).collect()
+}
+
+/// Centrifugal forces. The file has the square of the angular velocity, whose root the deck has.
+fn rotation(build: &mut Build, line: &SpreadLine, law: &TimeLaw, lines: &[usize]) {
+    let of = |at: usize| line.values.get(at).copied().unwrap_or(0.0);
+    let (about, axis) = ([of(1), of(2), of(3)], Vec3::new(of(4), of(5), of(6)));
+    let Some(axis) = axis.try_normalize(0.0) else {
+        return build.im.refuse(line.line, "CENTRIF needs a point of the axis and its direction behind its magnitude");
+    };
+    if law.scale < 0.0 {
+        return build.im.refuse(line.line, "the magnitude of CENTRIF is the square of an angular velocity");
+    }
+    if law.amplitude.is_some() && !build.timeline.is_joined() {
+        return build
+            .im
+            .refuse(line.line, "an amplitude of CENTRIF is not translated: that of the deck scales the speed");
+    }
+    let mut keys = vec![("axis", vector(axis.as_slice())), ("speed", number(law.scale.sqrt()))];
+    if about != [0.0; 3] {
+        keys.push(("about", vector(&about)));
+    }
+    let mut table = DeckTable::new("loads", 0).with_lines(lines.iter().copied());
+    if !line.target.name.is_empty() && has_mass_beside(build, &line.target) {
+        let cells: BTreeSet<usize> = build.cells(&line.target).into_iter().collect();
+        let inside = build.pieces.iter().filter(|piece| piece.cells.is_subset(&cells));
+        let mut names: Vec<String> = inside.flat_map(|piece| piece.names.clone()).collect();
+        let masses = point_masses(build).into_iter().filter(|at| cells.contains(at));
+        names.extend(masses.map(|at| format!("mesh.{}", build.mesh.cells[at].nodes[0])));
+        table = table.names("part", &names);
+    }
+    build.deck.add(in_time(table.value("centrifugal", inline(&keys)), Some(law)));
 }

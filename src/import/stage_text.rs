@@ -2,7 +2,8 @@
 
 use crate::build::Build;
 use crate::deck_text::{DeckTable, inline, number, quoted};
-use crate::file_content::{StepCard, StepProcedure};
+use crate::file_content::{ModalDamping, StepCard, StepProcedure};
+use crate::harmonics;
 
 /// Adds the analysis or the stages.
 pub fn stages(build: &mut Build) {
@@ -36,6 +37,10 @@ pub fn stages(build: &mut Build) {
         };
         let table = table.text("kind", kind(procedure));
         let table = times(table, procedure, build.timeline.is_staged());
+        let table = match step.damping {
+            Some((ModalDamping::Ratio(ratio), _)) => table.number("damping_ratio", ratio),
+            _ => table,
+        };
         let scheme = scheme(procedure);
         let table = match scheme {
             Some(keys) if build.timeline.is_staged() => table.value("integrator", inline(&keys)),
@@ -86,6 +91,7 @@ fn kind(procedure: &StepProcedure) -> &'static str {
         StepProcedure::Dynamic { .. } => "dynamic",
         StepProcedure::Frequency { .. } => "modal",
         StepProcedure::Buckle { .. } => "buckling",
+        StepProcedure::Response(_) => "frequency-response",
     }
 }
 
@@ -128,6 +134,7 @@ fn times(table: DeckTable, procedure: &StepProcedure, is_staged: bool) -> DeckTa
             if *is_complex { table.value("damped", "true") } else { table }
         }
         StepProcedure::Buckle { count } => table.value("modes", count.max(&1).to_string()),
+        StepProcedure::Response(card) => harmonics::keys(table, card),
     }
 }
 

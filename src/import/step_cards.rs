@@ -4,7 +4,7 @@ use crate::file_content::{ForceLine, SpreadLine, StepCard, StepProcedure, Suppor
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::temperatures;
-use base::text_file::cards::{Data, name_in};
+use base::text_file::cards::{Data, Keyword, name_in};
 
 /// Why a line that acts in a step is refused outside of all steps.
 const NO_STEP: &str = "no *STEP is open at this line";
@@ -33,7 +33,7 @@ pub fn end_step(im: &mut Importer, _: &KeywordBlock) {
 }
 
 /// Sets the procedure of the step being read.
-fn set(im: &mut Importer, line: usize, procedure: StepProcedure) {
+pub fn set(im: &mut Importer, line: usize, procedure: StepProcedure) {
     if !im.steps.is_open {
         return im.refuse(line, NO_STEP);
     }
@@ -149,6 +149,11 @@ fn is_new(block: &KeywordBlock) -> bool {
     block.keyword.value("OP").is_some_and(|op| op.eq_ignore_ascii_case("NEW"))
 }
 
+/// True for a keyword with the imaginary part of a load.
+pub fn is_imaginary(keyword: &Keyword) -> bool {
+    keyword.has("IMAGINARY") || keyword.value("LOADCASE") == Some("2")
+}
+
 /// Degrees of freedom by the words of `*BOUNDARY`.
 const WORDS: [(&str, &[usize]); 10] = [
     ("ENCASTRE", &[0, 1, 2, 3, 4, 5]),
@@ -175,12 +180,14 @@ pub fn boundary(im: &mut Importer, block: &KeywordBlock) {
     if is_new(block) {
         im.steps.at_hand().new_supports = true;
     }
+    let is_imaginary = is_imaginary(keyword);
     let amplitude = keyword.value("AMPLITUDE").map(str::to_owned);
     for data in block.data.iter().filter(|data| data.filled() > 0) {
         let Some((degrees, value)) = directions(im, data) else { continue };
         let (target, amplitude) = (im.target(&data.words[0]), amplitude.clone());
         let is_fixed = keyword.has("FIXED");
-        let support = SupportLine { line: data.line, target, degrees, value, amplitude, history, is_fixed };
+        let support =
+            SupportLine { line: data.line, target, degrees, value, amplitude, history, is_imaginary, is_fixed };
         im.steps.at_hand().supports.push(support);
     }
 }
@@ -213,9 +220,7 @@ fn directions(im: &mut Importer, data: &Data) -> Option<(Vec<usize>, f64)> {
 /// `*CLOAD`.
 pub fn forces(im: &mut Importer, block: &KeywordBlock) {
     let keyword = &block.keyword;
-    if keyword.value("LOADCASE").is_some_and(|case| case != "1") {
-        return im.refuse(keyword.line, "a load with a phase is not translated");
-    }
+    let is_imaginary = is_imaginary(keyword);
     if !im.steps.is_open {
         return im.refuse(keyword.line, NO_STEP);
     }
@@ -232,7 +237,8 @@ pub fn forces(im: &mut Importer, block: &KeywordBlock) {
         let value = im.number_at(data, 2).unwrap_or(0.0);
         let (target, amplitude) = (im.target(&data.words[0]), amplitude.clone());
         let is_follower = keyword.has("FOLLOWER");
-        let force = ForceLine { line: data.line, target, degree: degree as usize - 1, value, amplitude, is_follower };
+        let degree = degree as usize - 1;
+        let force = ForceLine { line: data.line, target, degree, value, amplitude, is_follower, is_imaginary };
         im.steps.at_hand().forces.push(force);
     }
 }
@@ -255,6 +261,7 @@ fn spread(im: &mut Importer, block: &KeywordBlock, is_surface: bool) {
         im.steps.at_hand().new_spread = true;
     }
     let amplitude = block.keyword.value("AMPLITUDE").map(str::to_owned);
+    let is_imaginary = is_imaginary(&block.keyword);
     for data in block.data.iter().filter(|data| data.filled() > 0) {
         let Some(kind) = data.words.get(1).map(name_in) else {
             im.refuse(data.line, "this line needs the kind of the load");
@@ -262,7 +269,8 @@ fn spread(im: &mut Importer, block: &KeywordBlock, is_surface: bool) {
         };
         let values = (2..data.filled()).map(|at| im.number_at(data, at).unwrap_or(0.0)).collect();
         let (target, amplitude, kind) = (im.target(&data.words[0]), amplitude.clone(), kind.to_ascii_uppercase());
-        im.steps.at_hand().spread.push(SpreadLine { line: data.line, target, is_surface, kind, values, amplitude });
+        let load = SpreadLine { line: data.line, target, is_surface, kind, values, is_imaginary, amplitude };
+        im.steps.at_hand().spread.push(load);
     }
 }
 

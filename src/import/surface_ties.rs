@@ -15,6 +15,9 @@ const USUAL: f64 = 0.05;
 /// The distance in the deck over the largest one here, which is one from nodes: middle surfaces may lie beside them by the thickness.
 const ROOM: f64 = 1.01;
 
+/// Nodes this near to a face, over the default distance, lie on it.
+const ASIDE: f64 = 1e-3;
+
 /// Adds the ties.
 pub fn surface_ties(build: &mut Build) {
     let mut known: BTreeSet<u64> = BTreeSet::new();
@@ -50,6 +53,10 @@ fn tie(build: &mut Build, card: &TieCard, nodes: BTreeSet<u64>, base: Base, know
     }
     if beyond > 0 {
         let how = format!("nodes of `{slave}` that lie farther than {tolerance:?} from `{master}` stay free: {beyond}");
+        build.im.change(card.line, &how);
+    }
+    if card.is_adjusted && farthest > ASIDE * base.usual {
+        let how = format!("tied nodes keep their places, up to {farthest:.3e} beside the faces: ADJUST=NO");
         build.im.change(card.line, &how);
     }
     if near.iter().any(|id| !known.insert(*id)) {

@@ -137,6 +137,7 @@ fn hold(build: &mut Build, target: &NamedTarget, dof: usize, line: usize) {
         value: 0.0,
         amplitude: None,
         history: "displacement",
+        is_imaginary: false,
         is_fixed: false,
     };
     let steps = &mut build.im.steps;

@@ -83,7 +83,10 @@ impl Timeline {
                     rest.push(stage(*duration, true));
                     start += duration;
                 }
-                Some((StepProcedure::Frequency { .. } | StepProcedure::Buckle { .. }, _)) => {
+                Some((
+                    StepProcedure::Frequency { .. } | StepProcedure::Buckle { .. } | StepProcedure::Response(_),
+                    _,
+                )) => {
                     let in_abaqus = im.steps.list[..step].iter().any(StepCard::is_large);
                     let counts = match im.dialect {
                         Some(Dialect::Calculix) => card.is_perturbation,

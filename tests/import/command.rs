@@ -5,14 +5,14 @@ use assert_cmd::Command;
 use std::path::Path;
 use tempfile::TempDir;
 
-fn folder(files: &[(&str, &str)]) -> TempDir {
+pub fn folder(files: &[(&str, &str)]) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     files.iter().for_each(|(name, text)| std::fs::write(folder.path().join(name), text).unwrap());
     folder
 }
 
 /// Exit code, standard output, standard error.
-fn rdsolve(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+pub fn rdsolve(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
     let done = Command::cargo_bin("rdsolve").unwrap().current_dir(folder).args(arguments).output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
     (done.status.code().unwrap(), text(done.stdout), text(done.stderr))

@@ -37,7 +37,7 @@ fn beams_beside_their_nodes() {
     near(moved[2], 5.0 * 0.1 / (2.0 * 1e9 * moment), 1e-6);
     refuses(BEAM, &[(section, "SECTION=PIPE, OFFSET1=a\n0.1, 0.01")], "OFFSET1 must be a number");
     let general = "SECTION=GENERAL, OFFSET1=0.5\n0.02, 3e-3, 0., 4e-3, 5e-3";
-    refuses(BEAM, &[(section, general)], "of rectangles, boxes and tubes alone");
+    refuses(BEAM, &[(section, general)], "of rectangles, boxes, tubes and ellipses alone");
 }
 
 /// A square tube by its walls has the integrals of a box with the same middle line; a hexagon those of two solid ones.
@@ -235,6 +235,14 @@ fn ties_of_surfaces() {
         for node in ["mesh.2", "mesh.11", "mesh.15"] {
             near(moves(&text, node).0[0], 0.1, 1e-9);
         }
+    }
+    // A seam beside the faces: both programs move tied nodes onto them, unless ADJUST=NO tells otherwise.
+    for (adjust, wanted) in [("", true), (", ADJUST=YES", true), (", ADJUST=NO", false)] {
+        let text = strips(&format!("{first}{}", seams[0]), &format!("*TIE, NAME=join{adjust}\nS2, S1"));
+        let made = imported(&text.replace("11, 1., 0., 0.", "11, 1., 0., 0.02"));
+        let is_told =
+            reasons(&made, KeywordVerdict::Changed).iter().any(|how| how.contains("2.000e-2 beside the faces"));
+        assert_eq!(is_told, wanted, "{adjust}");
     }
     let with = |seam: &str, tie: &str| strips(&format!("{first}{seam}"), tie);
     let hinged = imported(&with(seams[0], "*TIE, NAME=join, NO ROTATION\nS2, S1"));

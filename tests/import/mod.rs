@@ -5,10 +5,12 @@ mod command;
 mod constraints;
 mod dresses;
 mod keywords;
+mod mesh_makers;
 mod robots;
 mod round_trip;
 mod rows;
 mod silent;
+mod steady_motions;
 mod translations;
 mod values;
 

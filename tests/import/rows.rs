@@ -139,7 +139,44 @@ fn bars() {
 }
 
 #[test]
+fn bars_without_compression() {
+    let slack = [("*DENSITY", "*NO COMPRESSION\n*DENSITY")];
+    refuses(BEAM, &slack, "bars alone take tension alone");
+    let truss = [
+        slack[0],
+        ("TYPE=B31", "TYPE=T3D2"),
+        (
+            "*BEAM SECTION, ELSET=rod, MATERIAL=m, SECTION=RECT\n0.1, 0.2\n0., 1., 0.",
+            "*SOLID SECTION, ELSET=rod, MATERIAL=m\n0.02",
+        ),
+    ];
+    has(BEAM, &truss, None, "area = 0.02\ntension_only = true\n");
+}
+
+/// Springs and dampers of a joint, along axes that turn with its first node.
+#[test]
+fn joints_of_springs() {
+    let joint = "*ELEMENT, TYPE=JOINTC, ELSET=j\n7, 2, 9\n*ORIENTATION, NAME=o\n0., 1., 0., 0., 0., 1.\n*JOINT, ELSET=j, ORIENTATION=O\n\
+                 *SPRING\n1\n200.\n*DASHPOT\n3,\n4.\n*SPRING\n6\n50.\n*BOUNDARY\n9, 1, 6";
+    let with = |old: &str, new: &str| [("*BOUNDARY", joint.replace(old, new))];
+    let refused = |old: &str, new: &str, why: &str| {
+        let [(at, joint)] = with(old, new);
+        refuses(BEAM, &[(at, &joint)], why);
+    };
+    let wanted = "from = { node = \"mesh.2\" }\nto = { node = \"mesh.9\" }\nbushing = [200.0, 0.0, 0.0, 0.0, 0.0, 50.0]\n\
+                  bushing_damping = [0.0, 0.0, 4.0, 0.0, 0.0, 0.0]\naxes = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]\n";
+    has(BEAM, &[("*BOUNDARY", joint)], None, wanted);
+    refused("*SPRING\n1\n", "*SPRING\n7\n", "its axis, from 1 to 6");
+    refused("*SPRING\n1\n200.\n", "*SPRING\n1\n", "its axis, from 1 to 6");
+    refused("*SPRING\n1\n", "*SPRING, NONLINEAR\n1\n", "are linear in rdsolve");
+    refused("JOINT, ELSET=j, ", "JOINT, ", "*JOINT needs ELSET=");
+}
+
+#[test]
 fn shells() {
+    let general = [("*SHELL SECTION", "*SHELL GENERAL SECTION")];
+    has(SHELL, &general, None, "[[shells]]\ngroup = \"skin\"\nthickness = 0.01\nmaterial = \"m\"\n");
+    refuses(SHELL, &[general[0], (", MATERIAL=m\n0.01", "\n1., 2., 3.")], "a material and a thickness in rdsolve");
     has(SHELL, &[], None, "[[shells]]\ngroup = \"skin\"\nthickness = 0.01\nmaterial = \"m\"\n");
     has(SHELL, &[("*BOUNDARY\n", "*NSET, NSET=skin\n1\n*BOUNDARY\n")], None, "[[shells]]\ngroup = \"skin_elements\"\n");
     let nodal = [
@@ -176,7 +213,14 @@ fn loads_on_parts() {
         "pressure = 5.0\n",
     );
     has(SHELL, &load("*DLOAD\n, GRAV, 9.81, 0., 0., -2."), None, "[environment]\ngravity = [0.0, 0.0, -9.81]\n");
-    refuses(SHELL, &load("*DLOAD\nskin, CENTRIF, 5., 0., 0., 0., 0., 0., 1."), "give `centrifugal` in [[loads]]");
+    let spun = "*DLOAD\nskin, CENTRIF, 25., 1., 0., 0., 0., 0., 2.";
+    let wanted = "centrifugal = { axis = [0.0, 0.0, 1.0], speed = 5.0, about = [1.0, 0.0, 0.0] }\n";
+    has(SHELL, &load(spun), None, &format!("[[loads]]\n{wanted}"));
+    refuses(SHELL, &load("*DLOAD\nskin, CENTRIF, -5., 0., 0., 0., 0., 0., 1."), "the square of an angular velocity");
+    refuses(SHELL, &load("*DLOAD\nskin, CENTRIF, 5."), "CENTRIF needs a point");
+    let beside = "*ELEMENT, TYPE=MASS, ELSET=w\n5, 3\n*MASS, ELSET=w\n3.\n*BOUNDARY";
+    let part = format!("[[loads]]\npart = \"skin\"\n{wanted}");
+    has(SHELL, &[("*CLOAD\n3, 3, 5.", spun), ("*BOUNDARY", beside)], None, &part);
     refuses(SHELL, &load("*DLOAD\nskin, EDNOR1, 5."), "act on edges");
     let load = |line: &'static str| [("*CLOAD\n2, 3, 5.", line)];
     has(BEAM, &load("*DLOAD\nrod, PZ, 5."), None, "part = \"rod\"\nforce_per_length = [0.0, 0.0, 5.0]\n");
@@ -253,7 +297,11 @@ fn base_motions() {
     ] {
         refuses(&with(motion), &[], why);
     }
-    refuses(BEAM, &[("*CLOAD", "*BASE MOTION, DOF=1, AMPLITUDE=a\n*CLOAD")], "in steps of *MODAL DYNAMIC alone");
+    refuses(
+        BEAM,
+        &[("*CLOAD", "*BASE MOTION, DOF=1, AMPLITUDE=a\n*CLOAD")],
+        "in steps of *MODAL DYNAMIC and *STEADY STATE DYNAMICS alone",
+    );
     let two = edited(
         &with("DOF=1, AMPLITUDE=quake"),
         &[("*END STEP", "*END STEP\n*STEP\n*MODAL DYNAMIC\n0.01, 1.\n*END STEP")],
