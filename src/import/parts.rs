@@ -431,6 +431,7 @@ fn area(keys: &[(&'static str, SectionValue)]) -> f64 {
     };
     match keys.first() {
         Some((_, SectionValue::Word("rectangle"))) => get("width") * get("height"),
+        Some((_, SectionValue::Word("circle"))) => std::f64::consts::PI * get("radius").powi(2),
         Some((_, SectionValue::Word("tube"))) => {
             let (r, t) = (get("radius"), get("thickness"));
             std::f64::consts::PI * t * (2.0 * r - t)

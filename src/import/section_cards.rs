@@ -174,7 +174,7 @@ fn sides(keys: &[(&'static str, SectionValue)]) -> Option<[f64; 2]> {
             (_, SectionValue::Number(b)),
             ..,
         ] => Some([*a, *b]),
-        [(_, SectionValue::Word("tube")), (_, SectionValue::Number(radius)), ..] => Some([2.0 * radius; 2]),
+        [(_, SectionValue::Word("circle" | "tube")), (_, SectionValue::Number(radius)), ..] => Some([2.0 * radius; 2]),
         _ => None,
     }
 }
@@ -203,7 +203,7 @@ fn shape(word: &str, sizes: &[f64], dialect: Option<Dialect>) -> Result<KeysAndC
                 }
                 Some(Dialect::Calculix) => 0.5 * sizes[0],
             };
-            vec![("shape", Word("tube")), ("radius", Number(radius)), ("thickness", Number(radius))]
+            vec![("shape", Word("circle")), ("radius", Number(radius))]
         }
         "PIPE" | "THICKPIPE" => {
             needs(2)?;

@@ -42,8 +42,8 @@ fn sections_of_beams() {
     has(BEAM, &[], None, "[sections.rod]\nshape = \"rectangle\"\nwidth = 0.1\nheight = 0.2\n");
     has(BEAM, &with("SECTION=RECT", "0.1"), calculix, "shape = \"rectangle\"\nwidth = 0.1\nheight = 0.1\n");
     refuses(BEAM, &with("SECTION=RECT", "0.1"), "SECTION=RECT needs 2 numbers");
-    has(BEAM, &with("SECTION=CIRC", "0.1"), abaqus, "shape = \"tube\"\nradius = 0.1\nthickness = 0.1\n");
-    has(BEAM, &with("SECTION=CIRC", "0.1, 0.1"), calculix, "shape = \"tube\"\nradius = 0.05\nthickness = 0.05\n");
+    has(BEAM, &with("SECTION=CIRC", "0.1"), abaqus, "shape = \"circle\"\nradius = 0.1\n");
+    has(BEAM, &with("SECTION=CIRC", "0.1, 0.1"), calculix, "shape = \"circle\"\nradius = 0.05\n");
     has(BEAM, &with("SECTION=PIPE", "0.1, 0.01"), None, "shape = \"tube\"\nradius = 0.1\nthickness = 0.01\n");
     let walls = "shape = \"box\"\nwidth = 0.1\nheight = 0.2\nthickness = [0.01, 0.02]\n";
     has(BEAM, &with("SECTION=BOX", "0.1, 0.2, 0.01, 0.02, 0.01, 0.02"), None, walls);

@@ -6,6 +6,7 @@
 //! A shape is one file and one entry of [`SECTIONS`].
 
 pub mod c;
+pub mod circle;
 pub mod dimensions;
 pub mod fibres;
 pub mod general;
@@ -29,7 +30,7 @@ pub use stresses::{BeamStresses, SectionOutline, SectionStresses};
 
 /// All shapes of sections, in the order of the reference.
 pub static SECTIONS: &[&SectionKind] =
-    &[&rectangle::KIND, &tube::KIND, &hollow_box::KIND, &i::KIND, &c::KIND, &l::KIND, &general::KIND];
+    &[&rectangle::KIND, &circle::KIND, &tube::KIND, &hollow_box::KIND, &i::KIND, &c::KIND, &l::KIND, &general::KIND];
 
 #[cfg(test)]
 mod tests {

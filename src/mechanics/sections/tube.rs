@@ -13,8 +13,8 @@ use std::f64::consts::{PI, TAU};
 pub static KIND: SectionKind = SectionKind {
     word: "tube",
     aliases: &[],
-    guesses: &["pipe", "circle", "circular", "round", "hollow-circle", "cylinder"],
-    about: "A circular tube; solid where the thickness equals the radius.",
+    guesses: &["pipe", "chs", "hollow-circle", "ring"],
+    about: "A circular tube.",
     keys: &[
         Key { name: "radius", form: Form::Number, about: "Outer radius, above 0." },
         Key { name: "diameter", form: Form::Number, about: "Outer diameter, above 0, instead of `radius`." },
@@ -31,13 +31,18 @@ pub static KIND: SectionKind = SectionKind {
 
 fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
     check_walls(given, 1)?;
-    let radius = match (given.has("radius"), given.has("diameter")) {
-        (true, true) => return given.error("diameter", "a tube takes `radius` or `diameter`, not both"),
-        (false, true) => given.positive("diameter").map(|diameter| 0.5 * diameter),
-        _ => given.require_positive("radius"),
-    };
+    let radius = outer_radius(given, "tube");
     let thickness = *given.require("thickness")?.first()?;
     Some(CrossSection::Shape(Box::new(Tube { radius: radius?, thickness })))
+}
+
+/// Reads `radius`, or half of `diameter`, of the round `shape`.
+pub(super) fn outer_radius(given: &mut Given, shape: &str) -> Option<f64> {
+    match (given.has("radius"), given.has("diameter")) {
+        (true, true) => given.error("diameter", format!("a {shape} takes `radius` or `diameter`, not both")),
+        (false, true) => given.positive("diameter").map(|diameter| 0.5 * diameter),
+        _ => given.require_positive("radius"),
+    }
 }
 
 /// A circular tube, or a full circle.
