@@ -17,6 +17,9 @@ pub struct Attachment {
     /// Names of points, bodies, parts or sets. Nodes on the beam itself keep their places.
     #[schemars(required)]
     pub nodes: Maybe<Names>,
+    /// Distance from the body's centre, or from a node of the beam, above 0: only nodes within it are attached. The head of a bolt holds the
+    /// shell around it. Default: all nodes.
+    pub within: Maybe<f64>,
     /// Degrees of freedom that are taken from the body or beam. Default: "all".
     pub dofs: Maybe<Directions>,
     /// How the constraint is enforced. Default: "auto".

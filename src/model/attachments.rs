@@ -14,6 +14,7 @@ use base::math::Vec3;
 use base::names::short;
 use deck::attachments::{Attachment, AttachmentMethod};
 use deck::parts::PartIndex;
+use deck::words::Maybe;
 use std::collections::{HashMap, HashSet};
 
 /// Distances that agree to this relative difference count as equal.
@@ -29,6 +30,10 @@ pub(super) fn attachments<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut
         }
         let target = target(scene, &owner, attachment, report);
         let spots = scene.spots(&owner, "nodes", &attachment.nodes, Reach::Parts, report);
+        let spots = match &target {
+            Some(target) => near(scene, target, (spots, &attachment.within), nodes, report),
+            None => spots,
+        };
         if report.is_spoiled(owner.span, "dofs") {
             continue;
         }
@@ -90,6 +95,36 @@ fn target<'d>(
             report.unknown("beam", name, names.map(|name| name.as_str()).collect::<Vec<_>>().into_iter())
         }
     }
+}
+
+/// The nodes within a distance of the target, if the deck gives one.
+fn near<'d>(
+    scene: &Scene<'d>,
+    target: &Target,
+    (mut spots, within): (Vec<Spot<'d>>, &'d Maybe<f64>),
+    nodes: &Nodes,
+    report: &mut Report<'d>,
+) -> Vec<Spot<'d>> {
+    let Some(at) = within else { return spots };
+    if report.positive("within", within).is_none() || spots.is_empty() {
+        return spots;
+    }
+    let centers: Vec<Vec3> = match target {
+        Target::Body(body) => vec![nodes.x(scene.bodies[*body].node)],
+        Target::Part(_, beam) => {
+            scene.parts.entry(*beam).into_iter().flat_map(|entry| &entry.nodes).map(|&node| nodes.x(node)).collect()
+        }
+    };
+    let distance = |node: usize| centers.iter().map(|x| (nodes.x(node) - x).norm()).fold(f64::INFINITY, f64::min);
+    let nearest = spots.iter().map(|spot| distance(spot.node)).fold(f64::INFINITY, f64::min);
+    // A node on the circle counts, whatever the last digits of the deck are.
+    spots.retain(|spot| distance(spot.node) <= at.value * (1.0 + SAME));
+    if spots.is_empty() {
+        let message = format!("no node of `nodes` lies within {}", short(at.value));
+        let hint = format!("the nearest is {} away: give more, or divide the mesh there", short(nearest));
+        report.error_with::<()>(&at.span, message, hint);
+    }
+    spots
 }
 
 /// Attaches nodes as one table says.

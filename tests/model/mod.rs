@@ -1,7 +1,9 @@
 //! What decks mean, and what is said of them.
 
+mod attachments;
 mod build;
 mod cells;
+mod chosen_scheme;
 mod damping;
 mod grading;
 mod line_loads;
