@@ -41,6 +41,7 @@ struct Hints {
     values: Vec<Hint>,
     absent: Vec<Hint>,
     examples: Vec<Hint>,
+    missing: Vec<Hint>,
 }
 
 /// A row of `hints.toml`, which explains its fields.
@@ -91,6 +92,12 @@ pub fn key(guess: &str, path: &[String], known: &[&str]) -> Option<(String, Opti
 /// An example of the value of a key.
 pub fn example(key: &str) -> Option<&'static str> {
     find(&HINTS.examples, key, &[], &[])?.say.as_deref()
+}
+
+/// The remedy for a missing key that has an example.
+pub fn missing(key: &str) -> Option<String> {
+    let example = find(&HINTS.missing, key, &[], &[])?.say.as_deref()?;
+    Some(format!("add `{key}`, {example}"))
 }
 
 /// The sentence on a guessed value.
@@ -281,7 +288,7 @@ mod tests {
     /// An example stands behind a key of the deck.
     #[test]
     fn examples_are_of_keys() {
-        for key in HINTS.examples.iter().flat_map(|row| &row.guesses) {
+        for key in HINTS.examples.iter().chain(&HINTS.missing).flat_map(|row| &row.guesses) {
             assert!(tables().iter().any(|table| has(table, key)), "there is no key `{key}`");
         }
     }

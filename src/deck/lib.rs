@@ -47,6 +47,7 @@ pub mod ties;
 mod value;
 
 pub use base::words;
+pub use hints::missing as remedy_of_missing;
 pub use read::read;
 
 use schemars::JsonSchema;

@@ -1,5 +1,8 @@
 //! Explains numbers and comments written as in other languages and programs, which TOML does not read.
 
+use base::diagnostic::Diagnostic;
+use std::borrow::Cow;
+
 /// Characters that editors put in place of those of TOML, with their names and what to write.
 const LOOKALIKES: [(char, &str, &str); 9] = [
     ('\u{2212}', "the minus sign of mathematics", "-"),
@@ -12,6 +15,28 @@ const LOOKALIKES: [(char, &str, &str); 9] = [
     ('\u{00a0}', "a blank that breaks no line", "a blank"),
     ('\u{feff}', "a byte order mark", "nothing"),
 ];
+
+/// A text whose lines of comments of another language are comments of TOML, byte for byte in the same place, and the fault of the first. The
+/// parser would skip the tables below such a line, and report them as missing.
+pub fn without_foreign_comments(text: &str) -> (Cow<'_, str>, Option<Diagnostic>) {
+    const MARK: &str = "//";
+    let is_comment = |line: &&str| line.trim_start().starts_with(MARK);
+    let count = text.lines().filter(is_comment).count();
+    // Within a text of several lines such a line may be meant.
+    if count == 0 || text.contains("\"\"\"") || text.contains("'''") {
+        return (Cow::Borrowed(text), None);
+    }
+    let lines = text.split_inclusive('\n');
+    let mended: String =
+        lines.map(|line| if is_comment(&line) { line.replacen(MARK, "# ", 1) } else { line.to_owned() }).collect();
+    let at = text.find(MARK).unwrap_or_default();
+    let begin = text.lines().find(is_comment).map_or(at, |line| line.as_ptr() as usize - text.as_ptr() as usize);
+    let place = begin + text[begin..].find(MARK).unwrap_or_default();
+    let fault = Diagnostic::error(format!("`{MARK}` begins no comment in TOML")).at(&(place..place + MARK.len()));
+    let fault = fault.hint("a comment begins with #");
+    let fault = if count > 1 { fault.hint(format!("the same goes for {} more lines", count - 1)) } else { fault };
+    (Cow::Owned(mended), Some(fault))
+}
 
 /// Fault of the mark or the number at byte `at` of a text, and its correction; `None` if none stands there.
 pub fn explain(text: &str, at: usize) -> Option<(String, String)> {

@@ -21,9 +21,11 @@ const LIMIT: usize = 200;
 /// Reads a deck with its `--set` arguments. Unreadable entries are left out and reported; with too many of them there is no deck.
 pub fn read(source: &Source) -> (Option<Deck>, Vec<Diagnostic>) {
     let arguments: Vec<String> = source.sets.iter().map(|(_, text)| set::toml(text)).collect();
-    let (root, syntax) = DeTable::parse_recoverable(&source.text);
-    let mut root = root.into_inner();
     let mut reader = Reader::default();
+    let (text, slip) = number_slips::without_foreign_comments(&source.text);
+    reader.problems.extend(slip);
+    let (root, syntax) = DeTable::parse_recoverable(&text);
+    let mut root = root.into_inner();
     for error in &syntax {
         reader.syntax(&source.text, error);
     }

@@ -140,7 +140,11 @@ impl<'d> Report<'d> {
     /// The value of a key that must be there.
     pub fn require<T>(&mut self, owner: &Owner, key: &str, value: &'d Maybe<T>) -> Option<&'d At<T>> {
         if value.is_none() && !self.is_spoiled(owner.span, key) {
-            self.error::<()>(owner.span, format!("{} needs `{key}`", owner.what));
+            let message = format!("{} needs `{key}`", owner.what);
+            match deck::remedy_of_missing(key) {
+                Some(remedy) => self.error_with::<()>(owner.span, message, remedy),
+                None => self.error::<()>(owner.span, message),
+            };
         }
         value.as_ref()
     }

@@ -68,6 +68,7 @@ impl<'d> Supports<'_, 'd> {
     fn support(&mut self, support: &'d At<Table<words::Support>>) {
         let owner = Owner::new("`[[supports]]`", &support.span);
         let spots = self.scene.spots(&owner, "at", &support.at, Reach::Parts, self.report);
+        let spots = self.topology.without_loose(spots, "this support", self.report);
         let mut motions = support.motion.as_ref().map_or_else(Vec::new, |motions| self.motions(support, motions));
         let fixed = support.fix.as_ref().map_or([false; 6], |fix| fix.0);
         let unread = self.report.is_spoiled(owner.span, "fix") || self.report.is_spoiled(owner.span, "motion");

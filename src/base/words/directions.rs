@@ -1,7 +1,7 @@
 //! Sets of the six directions of a node.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{Error, SeqAccess, Visitor};
+use serde::de::{DeserializeSeed, Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::borrow::Cow;
 use std::fmt;
@@ -19,15 +19,20 @@ impl Directions {
 /// The words for several directions, and those for one.
 const WORDS: [&str; 9] = ["all", "translations", "rotations", "ux", "uy", "uz", "rx", "ry", "rz"];
 
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-enum Direction {
-    Ux,
-    Uy,
-    Uz,
-    Rx,
-    Ry,
-    Rz,
+impl Directions {
+    /// The directions of a word of [`WORDS`].
+    fn of_word<E: Error>(word: &str) -> Result<Directions, E> {
+        match word {
+            "all" => Ok(Directions::ALL),
+            "translations" => Ok(Directions([true, true, true, false, false, false])),
+            "rotations" => Ok(Directions([false, false, false, true, true, true])),
+            _ => {
+                let one = WORDS[3..].iter().position(|direction| *direction == word);
+                let one = one.ok_or_else(|| E::unknown_variant(word, &WORDS))?;
+                Ok(Directions(std::array::from_fn(|direction| direction == one)))
+            }
+        }
+    }
 }
 
 impl<'de> Deserialize<'de> for Directions {
@@ -41,22 +46,13 @@ impl<'de> Deserialize<'de> for Directions {
             }
 
             fn visit_str<E: Error>(self, word: &str) -> Result<Directions, E> {
-                match word {
-                    "all" => Ok(Directions::ALL),
-                    "translations" => Ok(Directions([true, true, true, false, false, false])),
-                    "rotations" => Ok(Directions([false, false, false, true, true, true])),
-                    _ => {
-                        let one = WORDS[3..].iter().position(|direction| *direction == word);
-                        let one = one.ok_or_else(|| E::unknown_variant(word, &WORDS))?;
-                        Ok(Directions(std::array::from_fn(|direction| direction == one)))
-                    }
-                }
+                Directions::of_word(word)
             }
 
             fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Directions, A::Error> {
                 let mut directions = [false; 6];
-                while let Some(direction) = list.next_element::<Direction>()? {
-                    directions[direction as usize] = true;
+                while let Some(Directions(more)) = list.next_element_seed(OneWord)? {
+                    directions = std::array::from_fn(|dof| directions[dof] || more[dof]);
                 }
                 Ok(Directions(directions))
             }
@@ -65,17 +61,36 @@ impl<'de> Deserialize<'de> for Directions {
     }
 }
 
+/// Reads an entry of a list of directions.
+struct OneWord;
+
+impl<'de> DeserializeSeed<'de> for OneWord {
+    type Value = Directions;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Directions, D::Error> {
+        deserializer.deserialize_str(self)
+    }
+}
+
+impl Visitor<'_> for OneWord {
+    type Value = Directions;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a direction in quotes")
+    }
+
+    fn visit_str<E: Error>(self, word: &str) -> Result<Directions, E> {
+        Directions::of_word(word)
+    }
+}
+
 impl JsonSchema for Directions {
     fn schema_name() -> Cow<'static, str> {
         "Directions".into()
     }
 
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let direction = generator.subschema_for::<Direction>();
-        json_schema!({ "anyOf": [
-            { "enum": ["all", "translations", "rotations"] },
-            direction,
-            { "type": "array", "items": direction },
-        ] })
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let word = json_schema!({ "enum": WORDS });
+        json_schema!({ "anyOf": [word, { "type": "array", "items": word }] })
     }
 }

@@ -163,7 +163,7 @@ fn of_facets<'d>(
     let (law, reason) = chooser.contact_law(owner, contact, opposite, touching, report)?;
     let at_rest = chooser.depth_at_rest(opposite, touching, law.stiffness);
     if faces.touchers != FacetTouchers::Itself {
-        let size = topology.x(opposite.node()).norm();
+        let size = topology.x(opposite.node()).norm().max(found.size);
         warn_closed(owner, gap_at_start(&found, faces, topology), size, at_rest, report);
     }
     opposite.nodes().into_iter().for_each(|node| topology.connect(node, true));

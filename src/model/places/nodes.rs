@@ -209,6 +209,24 @@ impl Topology {
         loose
     }
 
+    /// The spots without nodes of sets that belong to no part, if the set has others. A group of the mesh may cover faces outside all parts. A
+    /// note counts them.
+    pub fn without_loose<'d>(&self, spots: Vec<Spot<'d>>, what: &str, report: &mut Report) -> Vec<Spot<'d>> {
+        let is_loose = |spot: &Spot| self.complete && (0..6).all(|dof| !self.is_taken(spot.node, dof));
+        let mut kept = Vec::with_capacity(spots.len());
+        for of in spots.chunk_by(|a, b| a.span == b.span) {
+            let loose = of.iter().filter(|spot| is_loose(spot)).count();
+            if loose == 0 || loose == of.len() {
+                kept.extend(of.iter().copied());
+                continue;
+            }
+            kept.extend(of.iter().filter(|spot| !is_loose(spot)).copied());
+            let message = format!("{loose} of the {} nodes here belong to no part, and {what} ignores them", of.len());
+            report.note(of[0].span, message, "make a part of their elements, or name a smaller set");
+        }
+        kept
+    }
+
     /// Node list, attachments and restraints, for the model.
     pub fn into_parts(self) -> (Vec<Node>, Vec<DependentNode>, Vec<Restraint>) {
         let Nodes { list, dependents, restraints, .. } = self.nodes;

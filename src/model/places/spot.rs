@@ -4,6 +4,7 @@ use base::diagnostic::Span;
 use std::fmt;
 
 /// A node that a list of names covers.
+#[derive(Debug, Clone, Copy)]
 pub struct Spot<'d> {
     /// The node.
     pub node: usize,

@@ -14,7 +14,8 @@ use std::f64::consts::TAU;
 
 /// Angles in degrees are mostly multiples of this, and radians hardly ever.
 const MULTIPLE: f64 = 15.0;
-/// Limits and rests beyond a turn are rare; in degrees they are multiples of this.
+/// Limits and rests beyond a turn are rare; in degrees they are multiples of this, and so are the other angles. Motions by so many radians are a
+/// note.
 const FINE_MULTIPLE: f64 = 5.0;
 
 /// Warns of angles that are whole multiples of 15 beyond a turn, as degrees are and radians are not.
@@ -85,9 +86,12 @@ fn is_degrees(value: f64, multiple: f64) -> bool {
 }
 
 fn check(value: f64, multiple: f64, what: &str, place: &Span, report: &mut Report) {
+    let turns = (10.0 * value / TAU).round() / 10.0;
+    let hint = || format!("{} degrees are {} radians", short(value), short(value.to_radians()));
     if is_degrees(value, multiple) {
-        let turns = (10.0 * value / TAU).round() / 10.0;
         let message = format!("{what} is {} radians, {turns} turns, and looks like degrees", short(value));
-        report.warn(place, message, format!("{} degrees are {} radians", short(value), short(value.to_radians())));
+        report.warn(place, message, hint());
+    } else if is_degrees(value, FINE_MULTIPLE) {
+        report.note(place, format!("{what} is {} radians, {turns} turns", short(value)), hint());
     }
 }

@@ -16,6 +16,9 @@ const ROUNDING: f64 = 0.02;
 /// Least ratio of depth to length for a warning; a beam may be a short piece of a longer one.
 const FAR: f64 = 10.0;
 
+/// A beam that stands alone may be a bolt between plates or a pin in lugs, so much deeper than long; slips of units are a thousand times.
+const BOLT: f64 = 3.0;
+
 /// Warns of parts thicker than they are wide or long. The deck is sound.
 pub fn check_proportions(scene: &Scene, nodes: &Nodes, report: &mut Report) {
     let connected = Connected::new(scene, nodes);
@@ -50,7 +53,7 @@ fn check_line(part: &DeckPart, of: &[Part], depths: [f64; 2], (extent, nodes): (
     let length = of.iter().map(|part| (0..part.elements()).map(|e| length(part.nodes(e), nodes)).sum::<f64>()).sum();
     // A bending stiffness far from its area may stand for anything: the depth of a rectangle is the word for it.
     let (deep, long) = match depths {
-        [_, larger] if larger > extent.length => (larger, extent.length),
+        [_, larger] if larger > BOLT * extent.length => (larger, extent.length),
         // A short piece of a long line may be as deep as it is wide.
         [smaller, _] if smaller > FAR * length && 2.0 * smaller > extent.length => (smaller, length),
         _ => return,

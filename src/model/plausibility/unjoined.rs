@@ -184,7 +184,9 @@ impl Search<'_, '_> {
                 true => {
                     "make it a point of the path or a node of the mesh of both, or join them with `[[ties]]` or `[[joints]]`"
                 }
-                false => "name the same point in both, or join them with `[[joints]]` or `[[attachments]]`",
+                false => {
+                    "name the same point in both, or join them with `[[joints]]`, `[[attachments]]` or, on a shell, `[[ties]]`"
+                }
             };
             report.warn(self.place(*node), message, hint);
         }
