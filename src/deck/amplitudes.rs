@@ -34,7 +34,10 @@ pub struct Amplitude {
     /// Factor on the values, such as 9.81 for a record in g. Default: 1; with `units` and a header that names a unit, the factor from that unit to
     /// the deck's, unless a scale stands where the amplitude is used. (table)
     pub scale: Maybe<f64>,
-    /// Time shift of all points. Default: 0. (table)
+    /// Unit of the values of a file, such as "g", "m/s2", "cm/s2", "m/s" or "cm". rdsolve converts them to `units`. Every `scale` is then a
+    /// factor on the whole record. Default: that of the header. (table)
+    pub unit: Maybe<String>,
+    /// Time shift of all points. Default: 0; a record of ground motion from a file begins with the first dynamic stage. (table)
     pub shift: Maybe<f64>,
     /// Value before the first time. Default: the first value, with a warning if it is not zero and the run starts earlier. (table)
     pub before: Maybe<Beyond>,

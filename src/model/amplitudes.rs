@@ -1,6 +1,6 @@
 //! `[amplitudes.x]`: functions of time.
 
-use super::plausibility::record_units::{check_record_units, conversion};
+use super::plausibility::record_units::{check_record_units, conversion, waits_for_motion};
 use super::records::Record;
 use super::report::{Owner, Report};
 use super::stages::CurrentStage;
@@ -24,8 +24,10 @@ pub(super) fn amplitudes<'d>(
     let all = deck.amplitudes.0.iter().enumerate();
     let read = all.map(|(index, (name, amplitude))| {
         let record = record(index).map(|record| (record, conversion(deck, index, record).unwrap_or(1.0)));
-        let read = read_amplitude(&name.value, amplitude, record, report).unwrap_or(Amplitude::Constant);
-        match stage.map(|stage| stage.clock(&amplitude.stage)) {
+        let waits = stage.and_then(|stage| stage.start_of_motion()).filter(|_| waits_for_motion(deck, index));
+        let read = read_amplitude(&name.value, amplitude, (record, waits.is_some()), report);
+        let read = read.unwrap_or(Amplitude::Constant);
+        match waits.or_else(|| stage.map(|stage| stage.clock(&amplitude.stage))) {
             Some(clock) if clock > 0.0 => read.later(clock),
             _ => read,
         }
@@ -39,7 +41,7 @@ pub(super) fn amplitudes<'d>(
 fn read_amplitude<'d>(
     name: &str,
     amplitude: &'d At<Table<words::Amplitude>>,
-    record: Option<(&Record, f64)>,
+    record: (Option<(&Record, f64)>, bool),
     report: &mut Report<'d>,
 ) -> Option<Amplitude> {
     let a = amplitude;
@@ -93,8 +95,8 @@ fn read_amplitude<'d>(
 }
 
 /// The keys of tables, and where they are written.
-fn keys_of_tables(a: &words::Amplitude) -> [(&'static str, Option<&Span>); 10] {
-    keys!(a; points, file, columns, time_step, rows, before, after, scale, shift, interpolation)
+fn keys_of_tables(a: &words::Amplitude) -> [(&'static str, Option<&Span>); 11] {
+    keys!(a; points, file, columns, time_step, rows, unit, before, after, scale, shift, interpolation)
 }
 
 /// The phase in radians.
@@ -110,36 +112,37 @@ fn phase<'d>(owner: &Owner<'d>, a: &'d words::Amplitude, report: &mut Report<'d>
     }
 }
 
-/// A table through the points of the deck, or of a file, whose values have a factor.
+/// A table through the points of the deck or of a file. Values of a file have a factor. A record that `waits` for the motion is zero before.
 fn of_points_or_file<'d>(
     owner: &Owner<'d>,
     a: &'d At<Table<words::Amplitude>>,
-    record: Option<(&Record, f64)>,
+    (record, waits): (Option<(&Record, f64)>, bool),
     report: &mut Report<'d>,
 ) -> Option<Amplitude> {
-    let of_file = keys!(a; columns, time_step, rows);
+    let of_file = keys!(a; columns, time_step, rows, unit);
     if a.file.is_some() {
         report.reject_unused("a table from a file", &keys!(a; points));
         let (record, factor) = record?;
-        return table(a, record.points.iter().map(|[time, value]| [*time, value * factor]).collect(), report);
+        let points = record.points.iter().map(|[time, value]| [*time, value * factor]);
+        return table(a, (points.collect(), waits), report);
     }
     report.reject_unused("a table without a file", &of_file);
     let points = report.require(owner, "points", &a.points)?;
     let points = report.rising("points", "time", points)?;
-    table(a, points, report)
+    table(a, (points, false), report)
 }
 
 /// A table with the scale and shift of the deck, and with jumps to zero at its ends if the deck asks for them.
 fn table<'d>(
     a: &'d At<Table<words::Amplitude>>,
-    mut points: Vec<[f64; 2]>,
+    (mut points, waits): (Vec<[f64; 2]>, bool),
     report: &mut Report<'d>,
 ) -> Option<Amplitude> {
     let is_zero = |beyond: &Maybe<words::Beyond>| beyond.as_ref().is_some_and(|at| at.value == words::Beyond::Zero);
     let number = |given: &Maybe<f64>, default: f64| given.as_ref().map_or(default, |given| given.value);
     let (scale, shift) = (number(&a.scale, 1.0), number(&a.shift, 0.0));
     points.iter_mut().for_each(|[time, value]| (*time, *value) = (*time + shift, *value * scale));
-    if is_zero(&a.before) {
+    if is_zero(&a.before) || waits && a.before.is_none() && points[0][1] != 0.0 {
         points.insert(0, [points[0][0], 0.0]);
     }
     if is_zero(&a.after) {

@@ -2,7 +2,7 @@
 
 use super::data::RecordFile;
 use crate::record::{self, RecordColumn, RecordSelection, RecordUnit, TimeSeries};
-use base::diagnostic::{Diagnostic, Span};
+use base::diagnostic::{At, Diagnostic, Span};
 use base::names::short;
 use base::text_file::read_regular;
 use deck::Deck;
@@ -72,10 +72,31 @@ fn load(amplitude: &Amplitude, folder: &Path) -> Result<Option<(Record, Vec<Diag
     };
     let columns = amplitude.columns.iter().flat_map(|columns| &columns.values).map(|at| column(&at.value)).collect();
     let selection = RecordSelection { columns, time_step: time_step.map(|step| step.value), rows };
-    let series = record::read(&path, &bytes, &selection).map_err(|found| at_file(found, &file.span))?;
+    let mut series = record::read(&path, &bytes, &selection).map_err(|found| at_file(found, &file.span))?;
+    if let Some(at) = &amplitude.unit {
+        series.unit = Some(given_unit(at, series.unit)?);
+    }
     let warnings = warnings_of(amplitude, &file.value, &series);
     let record = Record { path, points: series.points, unit: series.unit, digest: Sha256::digest(&bytes).into() };
     Ok(Some((record, warnings)))
+}
+
+/// The unit from the deck. It must not contradict the header.
+fn given_unit(at: &At<String>, header: Option<RecordUnit>) -> Result<RecordUnit, Vec<Diagnostic>> {
+    let unit = RecordUnit::new(at.value.trim());
+    if unit.known.is_none() {
+        let error = Diagnostic::error(format!("`{}` is no unit of a motion", at.value)).at(&at.span);
+        return Err(vec![
+            error.hint("known: g, gal, and lengths such as m, cm, mm, in or ft alone, per s and per s2: \"cm/s2\""),
+        ]);
+    }
+    match header.filter(|header| header.known.is_some() && header.known != unit.known) {
+        Some(header) => {
+            let error = Diagnostic::error(format!("the header of the file says {}", header.name)).at(&at.span);
+            Err(vec![error.hint("leave `unit` out, or correct the header")])
+        }
+        None => Ok(unit),
+    }
 }
 
 /// Notes a subtracted offset, and a column that may be part of a sequence.

@@ -16,7 +16,7 @@ const LINES: usize = 60;
 
 /// Plain data: what a deck says or means, and what a step writes to.
 const WIDE: Known = &[
-    ("deck/amplitudes.rs: Amplitude", 18),
+    ("deck/amplitudes.rs: Amplitude", 19),
     ("deck/analysis.rs: Analysis", 19),
     ("deck/beams.rs: Beam", 22),
     ("deck/expect.rs: Expect", 16),

@@ -1,5 +1,7 @@
 //! Files of records.
 
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
 use rdsolve::record::{MOST_FAULTS, MotionQuantity, RecordColumn, RecordSelection, RecordUnit, read};
 
 fn select(columns: &[RecordColumn], time_step: Option<f64>) -> RecordSelection {
@@ -241,4 +243,96 @@ fn a_million_points_take_less_than_a_second() {
     assert_eq!((points.len(), points[999_999][0]), (1_000_000, 4999.995));
     // Half a second would be 0.5 µs a point, three times what it takes; the machine may be busy.
     assert!(began.elapsed().as_secs_f64() < 3.0);
+}
+
+/// A file as a data base writes it, in one of its many dresses, with its values, its time step and its unit.
+struct Dressed {
+    text: String,
+    values: Vec<f64>,
+    step: f64,
+    unit: &'static str,
+}
+
+/// The digits of a number in a format of Fortran, and the number that they stand for.
+fn digits(format: usize, x: f64) -> (String, f64) {
+    let scientific = format!("{x:.7e}");
+    let (mantissa, exponent) = scientific.split_once('e').unwrap();
+    let exponent: i32 = exponent.parse().unwrap();
+    let with =
+        |letter: &str| format!("{mantissa}{letter}{}{:02}", if exponent < 0 { '-' } else { '+' }, exponent.abs());
+    let text = match format {
+        0 => with("E"),
+        1 => with("D"),
+        2 => with(""),
+        3 => format!("{x:.8}"),
+        // As `.1234567E-01`: the mantissa below 1, without its zero.
+        _ => {
+            let sign = if x < 0.0 { "-" } else { "" };
+            let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
+            let exponent = exponent + 1;
+            format!("{sign}.{digits}E{}{:02}", if exponent < 0 { '-' } else { '+' }, exponent.abs())
+        }
+    };
+    let value = if format == 3 { text.parse().unwrap() } else { scientific.parse().unwrap() };
+    (text, value)
+}
+
+fn dressed(random: &mut StdRng) -> Dressed {
+    let mut pick = |count: usize| random.random_range(0..count);
+    let [format, per_line] = [pick(5), [1, 4, 5, 8][pick(4)]];
+    let (count, step) = (20 + pick(380), [0.005, 0.01, 0.0025, 0.02, 0.00390625, 0.0024][pick(6)]);
+    let numbers: Vec<(String, f64)> = (0..count)
+        .map(|_| digits(format, (pick(2_000_001) as f64 - 1e6) * 1e-6 * 10f64.powi(-(pick(6) as i32))))
+        .collect();
+    let (separator, end) = (["  ", "\t", " \t "][pick(3)], ["\n", "\r\n"][pick(2)]);
+    let (kind, unit) = [("ACCELERATION", "G"), ("VELOCITY", "CM/S"), ("DISPLACEMENT", "CM")][pick(3)];
+    let remark =
+        ["", ". FILTER POINTS: HP=0.1 Hz LP=40.0 Hz", " (baseline corrected)", ", rotated to fault normal", "\tH1"]
+            [pick(5)];
+    let title = [format!("{kind} TIME SERIES IN UNITS OF {unit}"), format!("{kind} TIME HISTORY\tIN UNITS OF\t{unit}")];
+    let npts =
+        [format!("NPTS={count}"), format!("NPTS=  {count}"), format!("NPTS = {count}"), format!("npts: {count}")];
+    let dt = [
+        format!("DT={step} SEC"),
+        format!("DT=   {step} SEC,"),
+        format!("DT = {}", step.to_string().trim_start_matches('0')),
+        format!("dt= {step:e} seconds"),
+        format!("DT={step}s"),
+    ];
+    let (npts, dt) = (&npts[pick(4)], &dt[pick(5)]);
+    let sizes = [
+        format!("{npts}, {dt}"),
+        format!("{npts} {dt}"),
+        format!("{npts}\t{dt}"),
+        format!("{npts}, {dt}, Vs30=300 m/s"),
+        format!("{dt}, {npts}"),
+        format!("{count}   {step}   NPTS, DT"),
+        format!("  {step}  {count}  DT, NPTS (sec)"),
+    ];
+    let station =
+        ["Imperial Valley-02, 5/19/1940, El Centro Array #9, 180", "Sylmar - Converter Sta, DT=?, 52"][pick(2)];
+    let tail = ["", "", "   ", "END OF FILE", "* processed, 5 per line *", "\u{1a}"][pick(6)];
+    let lines: Vec<String> = numbers
+        .chunks(per_line)
+        .map(|line| line.iter().map(|(text, _)| text.as_str()).collect::<Vec<_>>().join(separator))
+        .collect();
+    let head =
+        ["PEER NGA STRONG MOTION DATABASE RECORD", station, &format!("{}{remark}", title[pick(2)]), &sizes[pick(7)]]
+            .join(end);
+    let text = format!("{head}{end} {}{end}{tail}", lines.join(&format!("{end} ")));
+    Dressed { text, values: numbers.into_iter().map(|(_, value)| value).collect(), step, unit }
+}
+
+/// A folder of 230 files in random dresses: every value, time and unit is that which was written.
+#[test]
+fn records_of_a_whole_folder_are_read_as_they_were_written() {
+    let mut random = StdRng::seed_from_u64(230);
+    for file in 0..230 {
+        let Dressed { text, values, step, unit } = dressed(&mut random);
+        let found = read("r.txt", text.as_bytes(), &select(&[], None));
+        let found = found.unwrap_or_else(|problems| panic!("{file}: {problems:?}\n{text}"));
+        let wanted: Vec<[f64; 2]> = values.iter().enumerate().map(|(k, value)| [k as f64 * step, *value]).collect();
+        assert_eq!(found.points, wanted, "{file}\n{text}");
+        assert_eq!(found.unit, Some(RecordUnit::new(unit)), "{file}\n{text}");
+    }
 }

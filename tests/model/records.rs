@@ -369,3 +369,83 @@ fn a_record_is_part_of_the_hash() {
     assert_ne!(hash("0,1\n1,2\n"), hash("0,1\n1,3\n"));
     assert_eq!(hash("0,1\n1,2\n"), hash("0,1\n1,2\n"));
 }
+
+/// A record of the ground begins with the first dynamic stage, and nothing of it acts before: the motion is that of the record at t = 0,
+/// later by the stages before. `shift` counts from t = 0 as ever. The record begins with 0.3, which must not act as a static load.
+#[test]
+fn a_record_begins_with_the_motion() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let record: String = (0..=400).map(|k| format!("{}\n", 0.3 + pulse(k))).collect();
+    let amplitude =
+        "[amplitudes.quake]\nkind = \"table\"\nfile = \"record.csv\"\ntime_step = 0.005\nafter = \"zero\"\n";
+    let alone = format!("{OSCILLATOR}{SHAKEN}{amplitude}");
+    assert_eq!(run(folder, &alone, &record, "alone"), (0, String::new()));
+    let one = "[analysis]\nkind = \"dynamic\"\nend_time = 2.0\ntime_step = 0.005\n";
+    let stages = "[[stages]]\nname = \"weight\"\nkind = \"static\"\nduration = 1.0\ntime_step = 0.5\n[[stages]]\nname = \"quake\"\n\
+                  kind = \"dynamic\"\nduration = 2.0\ntime_step = 0.005\n";
+    let staged = alone.replace(one, stages);
+    assert_ne!(staged, alone);
+    assert_eq!(run(folder, &staged, &record, "staged"), (0, String::new()));
+    let (alone, after) = (rows(folder, "alone", "x"), rows(folder, "staged", "x"));
+    // Three rows of the static stage; the last is the first of the motion.
+    let after = &after[after.len() - alone.len()..];
+    let largest = alone.iter().map(|x| (x - 1.0).abs()).fold(0.0, f64::max);
+    for (k, (before, after)) in alone.iter().zip(after).enumerate() {
+        // Rounding of times near 3, against a motion that turns in 0.1: 1e-14.
+        assert!((before - after).abs() < 1e-9 * largest, "{k}: {before} {after}");
+    }
+    let shifted = staged.replace("after = \"zero\"", "after = \"zero\"\nshift = 0.0");
+    assert_eq!(run(folder, &shifted, &record, "shifted").0, 0);
+    let pushed = rows(folder, "shifted", "x")[2] - 1.0;
+    // The static displacement m a/k of the value at t = 1.
+    let exact = -2.0 * (0.3 + pulse(200)) / 500.0;
+    assert!((pushed - exact).abs() < 1e-9 * exact.abs(), "{pushed} {exact}");
+}
+
+/// With `unit` a scale is a factor on the whole record, whatever the header says of it, and files without a header are converted.
+#[test]
+fn a_unit_leaves_the_scale_to_be_a_factor() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let values: String = (0..=400).map(|k| format!("{:.6}\n", pulse(k))).collect();
+    let at2 = format!("A\nB\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 401, DT= .005 SEC\n{values}");
+    let deck = |head: &str, keys: &str| {
+        format!(
+            "{head}{OSCILLATOR}{SHAKEN}[amplitudes.quake]\nkind = \"table\"\nfile = \"record.csv\"\nafter = \"zero\"\n{keys}\n"
+        )
+    };
+    let si = "units = \"SI\"\n";
+    assert_eq!(run(folder, &deck(si, "scale = 14.709975"), &at2, "by_hand"), (0, String::new()));
+    let wanted = rows(folder, "by_hand", "x");
+    for (keys, record) in
+        [("unit = \"g\"\nscale = 1.5", &at2), ("unit = \"g\"\nscale = 1.5\ntime_step = 0.005", &values)]
+    {
+        assert_eq!(run(folder, &deck(si, keys), record, "out"), (0, String::new()), "{keys}");
+        let found = rows(folder, "out", "x");
+        // 1.5 · 9.80665 in one product or two.
+        assert!(wanted.iter().zip(&found).all(|(a, b)| (a - b).abs() < 1e-13), "{keys}");
+    }
+    for (head, keys, said) in [
+        ("", "unit = \"g\"", "`unit` converts a record to the units of the deck"),
+        (si, "unit = \"furlong\"", "`furlong` is no unit of a motion"),
+        (si, "unit = \"cm/s2\"", "the header of the file says G"),
+    ] {
+        let (code, found) = run(folder, &deck(head, keys), &at2, "out");
+        assert!(code == 3 && found.contains(said), "{keys}: {found}");
+    }
+    let (code, found) = run(folder, &deck(si, "scale = 1.5"), &at2, "out");
+    assert!(code == 0 && found.contains("`unit = \"g\"`"), "{found}");
+}
+
+/// A record that ends at less than a thousandth of its peak has faded: no warning that its last value is held.
+#[test]
+fn a_record_that_has_faded_ends_quietly() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let deck = format!("{OSCILLATOR}{SHAKEN}[amplitudes.quake]\nkind = \"table\"\nfile = \"record.csv\"\n");
+    for (end, warns) in [("0.0009", false), ("0.0011", true)] {
+        let (code, found) = run(folder, &deck, &format!("0,0\n0.5,1\n1.0,{end}\n"), "out");
+        assert!(code == 0 && found.contains("holds its last value") == warns, "{end}: {found}");
+    }
+}

@@ -9,6 +9,9 @@ use mechanics::amplitude::Amplitude;
 /// Times are equal within this part of the run: tables are written with six digits or more.
 const SAME_TIME: f64 = 1e-6;
 
+/// Part of the peak below which the last value of a record is noise. Held for the rest of the run, it is a small static load.
+const FADED: f64 = 1e-3;
+
 /// Warns of tables with nonzero values held beyond their ends, unless the deck asks for it, and of amplitudes equal to zero for the whole
 /// run. The deck is sound.
 pub fn check_amplitude_ends(deck: &Deck, amplitudes: &[Amplitude], end_time: f64, report: &mut Report) {
@@ -22,7 +25,9 @@ pub fn check_amplitude_ends(deck: &Deck, amplitudes: &[Amplitude], end_time: f64
             Amplitude::Table(_) | Amplitude::Curve(_) => {
                 let points = amplitude.points().unwrap_or_default();
                 let (Some([first, before]), Some([last, after])) = (points.first(), points.last()) else { continue };
-                if words.after.is_none() && *after != 0.0 && *last < end_time - slack {
+                let peak = points.iter().map(|[_, value]| value.abs()).fold(0.0, f64::max);
+                let has_faded = words.file.is_some() && after.abs() <= FADED * peak;
+                if words.after.is_none() && *after != 0.0 && !has_faded && *last < end_time - slack {
                     let message = format!(
                         "the table of amplitude `{name}` ends at {}, before the run does: it holds its last value, {}, \
                          to {}",

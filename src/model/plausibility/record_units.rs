@@ -45,8 +45,15 @@ pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut 
             report.warn(used.place, message, remedy(quantity));
             continue;
         }
+        if let Some(place) = words.unit.as_ref().map(|at| &at.span).filter(|_| deck.units.is_none()) {
+            let message = "`unit` converts a record to the units of the deck, and the deck does not name them";
+            report.error_with::<()>(place, message, "give `units` at the top, such as `units = \"SI\"`");
+            continue;
+        }
         if let Some(factor) = records[index].as_ref().and_then(|record| conversion(deck, index, record)) {
-            note_conversion(deck, &used, (file, unit), factor, report);
+            if words.unit.is_none() {
+                note_conversion(deck, &used, (file, unit), factor, report);
+            }
             continue;
         }
         let given = [words.scale.as_ref().map(|scale| scale.value), used.scale];
@@ -55,16 +62,31 @@ pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut 
     }
 }
 
-/// The factor from the unit in the header of a record to the units of the deck. `None` if the deck has no `units`, or converts by a scale of its
-/// own at the amplitude or at the motion.
+/// True for a record that begins with the first dynamic stage. It moves the ground or a support by accelerations or velocities, and the deck
+/// gives no time for its begin.
+pub fn waits_for_motion(deck: &Deck, index: usize) -> bool {
+    let (name, words) = &deck.amplitudes.0[index];
+    let is_this = |used: &Use| used.amplitude.as_ref().is_some_and(|own| own.value == name.value);
+    let mut used = uses(deck).into_iter().filter(is_this).peekable();
+    words.file.is_some()
+        && words.shift.is_none()
+        && words.stage.is_none()
+        && used.peek().is_some()
+        && used.all(|used| used.quantity != MotionQuantity::Displacement)
+}
+
+/// The factor from the unit of a record to the units of the deck. `None` if the deck has no `units`, or if it has a `scale` at the amplitude or
+/// at the motion and no `unit`.
 pub fn conversion(deck: &Deck, index: usize, record: &Record) -> Option<f64> {
     let (name, words) = &deck.amplitudes.0[index];
     let (quantity, si) = record.unit.as_ref()?.known?;
     let [length, _, time] = deck.units.as_ref()?.value.scales();
     let is_this = |used: &Use| used.amplitude.as_ref().is_some_and(|own| own.value == name.value);
     let used: Vec<Use> = uses(deck).into_iter().filter(is_this).collect();
-    let leaves = words.scale.is_none() && used.iter().all(|used| used.scale.is_none() && used.quantity == quantity);
-    (leaves && !used.is_empty()).then(|| si * time.powi(quantity.power_of_time()) / length)
+    let leaves = words.scale.is_none() && used.iter().all(|used| used.scale.is_none());
+    let is_right = used.iter().all(|used| used.quantity == quantity);
+    ((leaves || words.unit.is_some()) && is_right && !used.is_empty())
+        .then(|| si * time.powi(quantity.power_of_time()) / length)
 }
 
 /// Notes that a record is converted, unless it is in the units of the deck already.
@@ -108,11 +130,13 @@ fn check_factor(deck: &Deck, used: &Use, (file, unit): (&str, &RecordUnit), fact
                     unit.name,
                     to_digits(given / right, 3)
                 );
-                report.note(
-                    used.place,
-                    message,
-                    format!("in the units {label} the whole record is `scale = {}`", short(right)),
+                let hint = format!(
+                    "in the units {label} the whole record is `scale = {}`; with `unit = \"{}\"` in the amplitude the scale is a factor \
+                     on the whole record",
+                    short(right),
+                    unit.name.to_lowercase()
                 );
+                report.note(used.place, message, hint);
             }
         }
         (None, None) => {

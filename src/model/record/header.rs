@@ -42,7 +42,8 @@ pub fn find(path: &str, bytes: &[u8]) -> Result<Option<Header>, Fault> {
     let mut text = Text::new(path, bytes);
     let mut found = Found::default();
     while let Some(line) = text.line().filter(|line| line.number <= LONGEST) {
-        let words = String::from_utf8_lossy(line.bytes).trim().to_ascii_uppercase();
+        // A tab has the place of a blank.
+        let words = String::from_utf8_lossy(line.bytes).trim().to_ascii_uppercase().replace('\t', " ");
         if words.starts_with(['#', '%', '!']) {
             continue;
         }

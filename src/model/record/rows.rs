@@ -23,6 +23,9 @@ pub fn read_rows(mut text: Text, header: Option<&Header>, step: f64) -> Result<V
         }
         if header.is_some_and(|header| header.has_more_blocks) && rows.is_full() {
             rows.require_one_channel(&text, line);
+        } else if rows.is_full() && !is_number_like(&String::from_utf8_lossy(line.bytes)) {
+            // A remark of whoever processed the record, such as `END OF FILE`.
+            break;
         } else {
             rows.line(&text, line);
         }

@@ -127,6 +127,12 @@ impl<'d> CurrentStage<'d> {
         named.map_or(0.0, |index| self.sequence.stages[index].begin)
     }
 
+    /// The start of the first dynamic stage, if other stages with time come before it: there a record of the ground begins.
+    pub fn start_of_motion(&self) -> Option<f64> {
+        let first = self.sequence.first_dynamic()?;
+        self.sequence.before(first).map(|_| self.sequence.stages[first].begin)
+    }
+
     /// True where an earlier stage is dynamic.
     pub fn follows_motion(&self) -> bool {
         self.sequence.first_dynamic().is_some_and(|first| first < self.index)

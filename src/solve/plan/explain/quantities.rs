@@ -156,7 +156,9 @@ fn motions(model: &Model, excitation: &Excitation, times: &[f64]) -> Vec<String>
         Some((place, what, motion.amplitude, motion.scale))
     });
     let line = |(place, what, amplitude, scale): (String, &str, usize, f64)| {
-        let value = |time: f64| scale * excitation.factor_of(Some(amplitude), time, Side::After);
+        // A jump at the end acts in the next stage.
+        let side = |time: f64| if time >= model.analysis.end_time { Side::Before } else { Side::After };
+        let value = |time: f64| scale * excitation.factor_of(Some(amplitude), time, side(time));
         let values = times.iter().map(|&time| (value(time), time));
         let (most, at) =
             values.fold((0.0, 0.0), |most: (f64, f64), next| if next.0.abs() > most.0.abs() { next } else { most });
