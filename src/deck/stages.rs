@@ -18,7 +18,8 @@ pub struct Stage {
     /// What is computed.
     #[schemars(required)]
     pub kind: Maybe<StageKind>,
-    /// How long a static or dynamic stage lasts, above 0, unless it stops before.
+    /// How long a static or dynamic stage lasts, above 0, unless it stops before. With control = "displacement" the time after which loads
+    /// without amplitude have their value, 1 by default.
     pub duration: Maybe<f64>,
     /// Length of its time steps, or load steps, above 0; in a dynamic stage also "auto".
     pub time_step: Maybe<NumberOrAuto>,

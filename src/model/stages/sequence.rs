@@ -8,7 +8,7 @@ use base::diagnostic::{At, Span};
 use base::names::short;
 use base::words::kinds::OneOf;
 use deck::Deck;
-use deck::analysis::Integrator;
+use deck::analysis::{Control, Integrator};
 use deck::expect::Expect;
 use deck::stages::{Stage, StageKind};
 use deck::words::{Maybe, Names, Table};
@@ -105,6 +105,8 @@ impl<'d> StageSequence<'d> {
         }
         let duration = match of_modes {
             Some(_) => 0.0,
+            // The load factor of a path: loads without an amplitude have their value after this time.
+            None if is_moved(table) && table.duration.is_none() => 1.0,
             None => report.require_positive(&owner, "duration", &table.duration).unwrap_or(1.0),
         };
         let end = match reached {
@@ -208,6 +210,11 @@ impl<'d> StageSequence<'d> {
             Amplitude::Table(StraightLines::new(vec![[stage.begin, 0.0], [stage.end, reached]]))
         })
     }
+}
+
+/// True for a stage whose steps move a displacement.
+fn is_moved(table: &Stage) -> bool {
+    table.control.as_ref().is_some_and(|control| control.value == Control::Displacement)
 }
 
 /// True for a stage that seeks factors of loads.
