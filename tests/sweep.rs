@@ -68,7 +68,8 @@ fn a_sweep_is_its_runs() {
     let folder = files(SWEEP);
     let folder = folder.path();
     let output = rdsolve(folder, &["sweep", "s.toml"]);
-    assert!(output.status.success() && output.stderr.is_empty(), "{}", text(&output.stderr));
+    let said = text(&output.stderr);
+    assert!(output.status.success() && said.lines().count() == 1 && said.contains("`nothing` is empty"), "{said}");
     assert!(text(&output.stdout).starts_with("15 cases: 15 done; "));
     let cases = rows(folder, "s.out/cases.csv");
     assert_eq!(cases[0], ["case", "folder", "bodies.block.mass", "links.rope.stiffness"]);
@@ -610,4 +611,59 @@ fn a_table_of_cases_is_a_regular_file() {
     let refused = rdsolve(folder.path(), &["sweep", "s.toml"]);
     assert_eq!(refused.status.code(), Some(3));
     assert!(text(&refused.stderr).contains("a device or a pipe"), "{}", text(&refused.stderr));
+}
+
+/// Modes by their number, reactions of supports by their component, and a column that nothing fills, of which a warning tells.
+#[test]
+fn modes_and_reactions_are_collected() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let deck = r#"
+[[stages]]
+name = "pull"
+kind = "static"
+duration = 1.0
+time_step = 1.0
+[[stages]]
+name = "modes"
+kind = "modal"
+modes = 1
+[points]
+wall = [0.0, 0.0, 0.0]
+mass = [1.0, 0.0, 0.0]
+[[masses]]
+at = "mass"
+mass = 4.0
+[[links]]
+name = "spring"
+from = { node = "wall" }
+to = { node = "mass" }
+stiffness = 100.0
+[[supports]]
+at = "wall"
+fix = "translations"
+[[supports]]
+at = "mass"
+fix = ["uy", "uz"]
+[[loads]]
+at = "mass"
+force = [10.0, 0.0, 0.0]
+[output]
+reactions = true
+"#;
+    let sweep = "deck = \"deck.toml\"\n[vary]\n\"masses.0.mass\" = [1.0, 4.0]\n[collect]\nf = { mode = 1, quantity = \"frequency\" }\n\
+                 base = { at = \"wall\", quantity = \"fx\", peak = \"abs\" }\nnone = { at = \"wall\", quantity = \"moon\", peak = \"max\" }\n";
+    fs::write(folder.join("deck.toml"), deck).unwrap();
+    fs::write(folder.join("s.toml"), sweep).unwrap();
+    let done = rdsolve(folder, &["sweep", "s.toml"]);
+    let said = text(&done.stderr);
+    assert_eq!(done.status.code(), Some(0), "{said}");
+    assert!(said.contains("`none` is empty") && !said.contains("`base` is empty"), "{said}");
+    let found = rows(folder, "s.out/summary.csv");
+    for (row, mass) in found[1..].iter().zip([1.0f64, 4.0]) {
+        let [f, base]: [f64; 2] = [row[3].parse().unwrap(), row[4].parse().unwrap()];
+        let exact = (100.0 / mass).sqrt() / std::f64::consts::TAU;
+        assert!((f - exact).abs() < 1e-9 * exact && (base + 10.0).abs() < 1e-9, "{row:?}");
+        assert_eq!(row[5], "");
+    }
 }

@@ -24,7 +24,7 @@ use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex};
 use sweep::case_state::CaseState;
 use sweep::cases::Cases;
-use sweep::file::{self, SweepFile};
+use sweep::file::{self, Collected, SweepFile};
 use sweep::folder::{FAILURE, SweepFolder};
 use sweep::marks::{Computed, mark_all};
 
@@ -117,6 +117,13 @@ pub fn sweep(args: &SweepArgs) -> Result<(), Exit> {
         sweep.run(&chosen, args.case == Some(Choice::Failed), jobs)?;
     }
     let states = folder.write_summary(&cases).map_err(|error| cannot_write(&folder.path, &error))?;
+    for one in folder.empty_columns().map_err(|error| cannot_write(&folder.path, &error))? {
+        let Collected { name, at, quantity, .. } = one;
+        say(&format!(
+            "warning: `{name}` is empty: no table that the cases write has `{quantity}` of `{at}`. Correct `at` or `quantity`, or ask for its table \
+             in `[output]` of the deck"
+        ));
+    }
     sweep.conclude(&chosen, &states)
 }
 

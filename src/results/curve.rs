@@ -8,7 +8,8 @@ use std::io;
 use std::path::Path;
 use std::str::FromStr;
 
-/// A column of the rows of some names, summed: `reactions.csv:* ux:value`; with `-` in front its negative.
+/// A column of the rows of some names, summed: `nodes.csv:tip:ux`; with `-` in front its negative. Reactions have a component as column,
+/// such as `reactions.csv:*:fx`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CurveAxis {
     /// The whole word.
@@ -18,6 +19,17 @@ pub struct CurveAxis {
     /// The name of the rows, in which `*` stands for anything; empty for rows about the whole scene.
     name: String,
     column: String,
+}
+
+/// The table of reactions, ...
+pub const REACTIONS: &str = "reactions.csv";
+/// ... and its column of values, one row for each direction.
+pub const REACTION: &str = "value";
+
+/// The direction of the rows of [`REACTIONS`] that hold a component of force or moment: "ux" for "fx".
+pub fn reaction_direction(component: &str) -> Option<&'static str> {
+    let place = ["fx", "fy", "fz", "mx", "my", "mz"].iter().position(|word| *word == component)?;
+    Some(["ux", "uy", "uz", "rx", "ry", "rz"][place])
 }
 
 impl FromStr for CurveAxis {
@@ -35,6 +47,10 @@ impl FromStr for CurveAxis {
         });
         let (file, name, column) =
             parsed.ok_or("write FILE:NAME:COLUMN, such as `nodes.csv:tip:ux`, or FILE:COLUMN")?;
+        let (name, column) = match reaction_direction(&column).filter(|_| file == REACTIONS) {
+            Some(direction) => (format!("{name} {direction}").trim_start().to_owned(), REACTION.to_owned()),
+            None => (name, column),
+        };
         Ok(CurveAxis { word: word.to_owned(), is_negative, file, name, column })
     }
 }
@@ -152,6 +168,9 @@ mod tests {
         let curve = Curve::read(dir.path(), [&x, &y]).unwrap();
         assert_eq!((&curve.x, &curve.y), (&vec![0.0, 1.0, 3.0], &vec![0.0, 5.0, 6.0]));
         assert_eq!(curve.work(), 2.5 + 11.0);
+        // A component of force selects the rows of its direction.
+        assert_eq!(Curve::read(dir.path(), [&x, &axis("-reactions.csv:*:fx")]).unwrap(), curve);
+        assert_eq!(Curve::read(dir.path(), [&x, &axis("reactions.csv:b:fy")]).unwrap().y, [7.0; 3]);
         let error = |x: &str| Curve::read(dir.path(), [&axis(x), &y]).unwrap_err().to_string();
         assert!(error("nodes.csv:tip:uz").contains("no column `uz`"));
         assert!(error("nodes.csv:top:ux").contains("no row is about `top`"));

@@ -2,6 +2,7 @@
 
 use super::file::{Collected, CollectedWhen};
 use results::TABLES;
+use results::curve::{REACTION, REACTIONS, reaction_direction};
 use results::table::{CASE, STAGE, TableKind};
 use results::table_reader::{TableReader, fields, number, text};
 use std::io;
@@ -12,7 +13,8 @@ const SAME_TIME: f64 = 1e-9;
 
 /// The tables that hold these numbers.
 pub fn tables_of(wanted: &[Collected]) -> Vec<&'static str> {
-    let holds_one = |table: &&&TableKind| wanted.iter().any(|one| holds(table, one));
+    let reactions: Vec<Collected> = wanted.iter().filter_map(as_reaction).collect();
+    let holds_one = |table: &&&TableKind| wanted.iter().chain(&reactions).any(|one| holds(table, one));
     TABLES.iter().filter(holds_one).map(|table| table.file).collect()
 }
 
@@ -45,7 +47,19 @@ pub fn collect(folder: &Path, wanted: &[Collected]) -> io::Result<Vec<Option<f64
             found[place] = value;
         }
     }
+    let path = folder.join(REACTIONS);
+    for (place, one) in wanted.iter().enumerate().filter(|_| path.exists()) {
+        if let Some(reaction) = as_reaction(one).filter(|_| found[place].is_none()) {
+            found[place] = of_table(&path, &[&reaction])?.pop().flatten();
+        }
+    }
     Ok(found)
+}
+
+/// The rows of reactions.csv that a component of force or moment at a support stands in.
+fn as_reaction(one: &Collected) -> Option<Collected> {
+    let direction = reaction_direction(&one.quantity)?;
+    Some(Collected { at: format!("{} {direction}", one.at), quantity: REACTION.to_owned(), ..one.clone() })
 }
 
 /// The search for one number in the rows of a table.

@@ -138,7 +138,7 @@ const KEYS: [&str; 4] = ["deck", "vary", "collect", "keep"];
 const OF_VARY: [&str; 2] = ["table", "sample"];
 const RANGE: [&str; 3] = ["from", "to", "steps"];
 const SAMPLE: [&str; 3] = ["kind", "cases", "seed"];
-const COLLECTED: [&str; 5] = ["at", "quantity", "stage", "peak", "time"];
+const COLLECTED: [&str; 6] = ["at", "mode", "quantity", "stage", "peak", "time"];
 
 /// The largest number of values of an axis, and of cases.
 pub const MOST_CASES: usize = 1_000_000;
@@ -333,6 +333,7 @@ impl Reader<'_> {
                 ("at", DeValue::String(text)) => at = Some(text.to_string()),
                 ("quantity", DeValue::String(text)) => quantity = Some(text.to_string()),
                 ("stage", DeValue::String(text)) => stage = Some(text.to_string()),
+                ("mode", _) => at = self.count(key, value, 1).map(|mode| mode.to_string()).or(at),
                 ("at" | "quantity" | "stage", _) => {
                     self.error(&value.span(), format!("`{key}` must be a name in quotes"))
                 }
@@ -345,8 +346,16 @@ impl Reader<'_> {
                 _ => when = self.number("time", value).map(CollectedWhen::Time),
             }
         }
+        // A mode has one row in each stage of modes, and needs no time.
+        let when = when.or(table.contains_key("mode").then_some(CollectedWhen::End));
+        if table.contains_key("mode") && table.contains_key("at") {
+            self.error(&value.span(), format!("`{name}` takes `at` or `mode`, not both"));
+        }
         if self.problems.len() == before && (at.is_none() || quantity.is_none() || when.is_none()) {
-            self.error(&value.span(), format!("`{name}` needs `at`, `quantity` and `peak` or `time`"));
+            self.error(
+                &value.span(),
+                format!("`{name}` needs `at`, `quantity` and `peak` or `time`; or `mode` and `quantity`"),
+            );
         }
         let taken: HashSet<&str> = HashSet::from(["case", "status", "reason"]);
         if taken.contains(name.as_str()) {

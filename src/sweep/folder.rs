@@ -124,6 +124,27 @@ impl SweepFolder {
         Ok(states)
     }
 
+    /// The collected columns without any value in the finished cases.
+    ///
+    /// # Errors
+    /// The summary cannot be read.
+    pub fn empty_columns(&self) -> io::Result<Vec<&Collected>> {
+        let mut rows = csv::Reader::from_path(self.path.join("summary.csv"))?;
+        let header = rows.headers()?.clone();
+        let place = |name: &str| (0..header.len()).rev().find(|&place| &header[place] == name);
+        let mut empty: Vec<(&Collected, Option<usize>)> =
+            self.collect.iter().map(|one| (one, place(&one.name))).collect();
+        let (status, mut done) = (place("status"), 0);
+        for row in rows.records() {
+            let row = row?;
+            if status.and_then(|status| row.get(status)) == Some(CaseState::Done.word()) {
+                done += 1;
+                empty.retain(|(_, place)| place.and_then(|place| row.get(place)).is_none_or(str::is_empty));
+            }
+        }
+        Ok(if done > 0 { empty.into_iter().map(|(one, _)| one).collect() } else { Vec::new() })
+    }
+
     /// Writes the summary of the cases that stand now.
     fn write_what_stands(&self, cases: &Cases) -> io::Result<Vec<CaseState>> {
         let wanted = &self.collect;
