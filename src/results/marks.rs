@@ -26,7 +26,7 @@ pub struct SceneMarks {
 }
 
 /// The size of a section about the axis of its beam.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum SectionSize {
     /// A round section, by its outer radius.
@@ -34,12 +34,17 @@ pub enum SectionSize {
         /// The radius.
         radius: f64,
     },
-    /// Any other, by the box around it.
+    /// A rectangle, full or hollow.
     Box {
         /// The least and the largest y.
         y: [f64; 2],
         /// The least and the largest z.
         z: [f64; 2],
+    },
+    /// Open walls.
+    Walls {
+        /// The least y, the largest y, the least z and the largest z of each.
+        walls: Vec<[f64; 4]>,
     },
 }
 
@@ -134,11 +139,74 @@ fn section_size(outline: &SectionOutline) -> SectionSize {
     match outline {
         SectionOutline::Circle { outer, .. } => SectionSize::Round { radius: *outer },
         SectionOutline::Points(points) => {
-            let range = |axis: usize| {
-                let along = || points.iter().map(|point| point.at[axis]);
-                [along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max)]
+            let mut walls: Vec<[f64; 4]> = Vec::new();
+            for wall in points.chunk_by(|a, b| a.wall == b.wall) {
+                let [[y0, y1], [z0, z1]] = [0, 1].map(|axis| range(wall.iter().map(|point| point.at[axis])));
+                let is_same = |a: f64, b: f64| (a - b).abs() <= SAME * (y1 - y0).max(z1 - z0);
+                match walls.last_mut() {
+                    // The halves of a flange are one.
+                    Some([_, y, low, high]) if is_same(*y, y0) && is_same(*low, z0) && is_same(*high, z1) => *y = y1,
+                    _ => walls.push([y0, y1, z0, z1]),
+                }
+            }
+            let [y, z] = box_of(&walls);
+            // A side is closed where walls cover it.
+            let is_closed = |side: f64, place: usize| {
+                let is_there = |wall: &&[f64; 4]| (wall[place] - side).abs() <= SAME * (y[1] - y[0]);
+                let along = walls.iter().filter(is_there).map(|[.., low, high]| high - low);
+                along.sum::<f64>() >= CLOSED * (z[1] - z[0])
             };
-            SectionSize::Box { y: range(0), z: range(1) }
+            match is_closed(y[0], 0) && is_closed(y[1], 1) {
+                true => SectionSize::Box { y, z },
+                false => SectionSize::Walls { walls },
+            }
+        }
+    }
+}
+
+/// Part of the size of a section within which two of its coordinates are one, against rounding.
+const SAME: f64 = 1e-9;
+
+/// Part of the height of a box that its webs cover.
+const CLOSED: f64 = 0.999;
+
+/// The least and the largest y and z of walls.
+pub fn box_of(walls: &[[f64; 4]]) -> [[f64; 2]; 2] {
+    [0, 2].map(|axis| range(walls.iter().flat_map(|wall| [wall[axis], wall[axis + 1]])))
+}
+
+fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mechanics::sections::SectionShape;
+    use mechanics::sections::hollow_box::HollowBox;
+    use mechanics::sections::i::I;
+    use mechanics::sections::rectangle::Rectangle;
+
+    /// An I section is its web between two flanges, and boxes, full and hollow, are drawn by their sides.
+    #[test]
+    fn sections_are_drawn_by_their_walls() {
+        let size = |shape: &dyn SectionShape| {
+            let section = shape.section(0.3).unwrap();
+            section_size(&shape.outline(0.3, &section).unwrap())
+        };
+        let i = I { height: 0.3, top_width: 0.2, bottom_width: 0.2, web: 0.01, top_flange: 0.02, bottom_flange: 0.02 };
+        let SectionSize::Walls { walls } = size(&i) else { panic!("an I section has walls") };
+        let wanted = [[-0.1, 0.1, 0.13, 0.15], [-0.005, 0.005, -0.13, 0.13], [-0.1, 0.1, -0.15, -0.13]];
+        assert_eq!(walls.len(), wanted.len());
+        for (found, wanted) in walls.iter().flatten().zip(wanted.iter().flatten()) {
+            assert!((found - wanted).abs() < 1e-12, "{walls:?}");
+        }
+        let full: Box<dyn SectionShape> = Box::new(Rectangle { width: 0.1, height: 0.2 });
+        let hollow: Box<dyn SectionShape> = Box::new(HollowBox { width: 0.1, height: 0.2, web: 0.01, flange: 0.005 });
+        for shape in [full, hollow] {
+            let SectionSize::Box { y, z } = size(&*shape) else { panic!("{shape:?} is a box") };
+            let sides = [y[0] + 0.05, y[1] - 0.05, z[0] + 0.1, z[1] - 0.1];
+            assert!(sides.iter().all(|side| side.abs() < 1e-12), "{sides:?}");
         }
     }
 }

@@ -44,6 +44,8 @@ pub enum SectionOutline {
 pub struct StressPoint {
     /// Coordinates (y, z) from the centroid.
     pub at: [f64; 2],
+    /// The number of its wall; 0 in a full shape.
+    pub wall: usize,
     /// Two components of the shear stress, each for a unit V_y, a unit V_z, both through the shear centre, and a unit torsional moment.
     pub shear: [[f64; 3]; 2],
 }
@@ -107,7 +109,7 @@ impl SectionStresses {
         let mut found = BeamStresses::default();
         match self.outline {
             SectionOutline::Points(ref points) => {
-                for StressPoint { at: [y, z], shear } in points {
+                for StressPoint { at: [y, z], shear, .. } in points {
                     found.include(sigma(*y, *z), &shear.map(|s| s[0] * Vy + s[1] * Vz + s[2] * twist));
                 }
             }

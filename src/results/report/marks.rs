@@ -1,7 +1,7 @@
 //! Supports, loads, joints and sections of beams on the page. Each mark is tied to the nearest point of the scene, and moves with it.
 
 use super::numbers::PageNumbers;
-use crate::marks::{SceneMarks, SectionSize};
+use crate::marks::{SceneMarks, SectionSize, box_of};
 use base64::prelude::{BASE64_STANDARD, Engine};
 use serde_json::{Value, json};
 use std::collections::HashMap;
@@ -54,7 +54,7 @@ impl PageMarks {
         for (cell, part) in self.cell_parts.iter().enumerate() {
             let Some(size) = self.part_names.get(*part).and_then(|name| marks.beams.get(name)) else { continue };
             let place = self.sections.iter().position(|known| known == size).unwrap_or_else(|| {
-                self.sections.push(*size);
+                self.sections.push(size.clone());
                 self.sections.len() - 1
             });
             self.cell_sections[cell] = u8::try_from(place + 1).unwrap_or_default();
@@ -69,9 +69,10 @@ impl PageMarks {
     /// The depth of the beam of a cell, half the sum of the sides of its box; zero without a section.
     pub fn depth(&self, cell: usize) -> f64 {
         let number = usize::from(self.cell_sections.get(cell).copied().unwrap_or_default());
-        match number.checked_sub(1).map(|place| self.sections[place]) {
+        match number.checked_sub(1).map(|place| &self.sections[place]) {
             Some(SectionSize::Round { radius }) => 2.0 * radius,
             Some(SectionSize::Box { y, z }) => 0.5 * (y[1] - y[0] + z[1] - z[0]),
+            Some(SectionSize::Walls { walls }) => box_of(walls).iter().map(|[low, high]| 0.5 * (high - low)).sum(),
             None => 0.0,
         }
     }

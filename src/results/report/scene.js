@@ -65,19 +65,23 @@ class Scene {
     this.corners = [];
     if (!sectionY) return;
     const of = bytes(cellSections), y = floats(sectionY), triangles = [...this.triangles], cells = [...this.triangleCells];
-    const rim = size => size.radius
-      ? Array.from({ length: 12 }, (_, i) => [Math.cos(i * Math.PI / 6), Math.sin(i * Math.PI / 6)].map(x => size.radius * x))
-      : [[0, 0], [1, 0], [1, 1], [0, 1]].map(([i, j]) => [size.y[i], size.z[j]]);
+    const circle = radius => Array.from({ length: 12 }, (_, i) => [Math.cos(i * Math.PI / 6), Math.sin(i * Math.PI / 6)].map(x => radius * x));
+    const rims = ({ radius, walls, y, z }) => radius
+      ? [circle(radius)]
+      : (walls ?? [[...y, ...z]]).map(([left, right, low, high]) => [[left, low], [right, low], [right, high], [left, high]]);
     for (let i = 0; i < this.lines.length; i += 2) {
       const cell = this.lineCells[i / 2], section = of[cell];
       if (!section) continue;
-      const ends = [this.lines[i], this.lines[i + 1]], round = rim(sections[section - 1]), n = round.length, first = this.count + this.corners.length;
-      for (const point of ends) for (const [a, b] of round) this.corners.push({ point, ends, axis: y.subarray(3 * point, 3 * point + 3), a, b });
-      const face = (...points) => (triangles.push(...points.map(k => first + k)), cells.push(cell));
-      for (let k = 0; k < n; k++) {
-        const next = (k + 1) % n;
-        face(k, next, n + next), face(k, n + next, n + k);
-        if (k > 1) face(0, k - 1, k), face(n, n + k, n + k - 1);
+      const ends = [this.lines[i], this.lines[i + 1]];
+      for (const round of rims(sections[section - 1])) {
+        const n = round.length, first = this.count + this.corners.length;
+        for (const point of ends) for (const [a, b] of round) this.corners.push({ point, ends, axis: y.subarray(3 * point, 3 * point + 3), a, b });
+        const face = (...points) => (triangles.push(...points.map(k => first + k)), cells.push(cell));
+        for (let k = 0; k < n; k++) {
+          const next = (k + 1) % n;
+          face(k, next, n + next), face(k, n + next, n + k);
+          if (k > 1) face(0, k - 1, k), face(n, n + k, n + k - 1);
+        }
       }
     }
     [this.triangles, this.triangleCells] = [Uint32Array.from(triangles), Uint32Array.from(cells)];
