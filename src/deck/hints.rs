@@ -162,8 +162,8 @@ mod tests {
     }
 
     fn rows() -> impl Iterator<Item = &'static Hint> {
-        let Hints { keys, values, absent, examples } = &*HINTS;
-        [keys, values, absent, examples].into_iter().flatten()
+        let Hints { keys, values, absent, examples, missing } = &*HINTS;
+        [keys, values, absent, examples, missing].into_iter().flatten()
     }
 
     /// Every guess is one: at some place where it is not a key, a key answers it.
