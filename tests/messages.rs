@@ -598,6 +598,56 @@ fn links_that_yield() {
     assert_snapshot!("links_that_yield", portal_and(&links.join("\n")));
 }
 
+/// Hysteresis that falls, and that pinches.
+#[test]
+fn hysteresis_that_deteriorates() {
+    let link = |name: &str, text: &str| {
+        format!(
+            "[[links]]\nname = \"{name}\"\nfrom = {{ node = \"knee_right\" }}\nto = {{ ground = [3.0, 0.0, 2.0] }}\n{text}\n"
+        )
+    };
+    let yields = "law = \"ibarra-medina-krawinkler\"\nstiffness = 1e6\nyield_force = 1e3\npost_yield_stiffness = 1e4";
+    let pinches = "law = \"pinching\"\nbackbone = [[0.001, 1e3], [0.01, 1.2e3], [0.05, 5e2]]";
+    let good = [
+        format!(
+            "{yields}\ndeterioration = {{ capping = 0.02, post_capping = 0.1, residual = 0.2, ultimate = 0.2, strength = 1.0, softening = 1.0, unloading = 2.0, exponent = 1.2 }}"
+        ),
+        format!(
+            "{pinches}\npinching = {{ force = 0.4, elongation = 0.7, ductility = 0.01, energy = 0.02, unloading = 0.3 }}"
+        ),
+    ];
+    for text in good {
+        assert_eq!(portal_and(&link("fuse", &text)).trim(), "");
+    }
+    let links = [
+        yields.to_owned(),
+        format!("{yields}\ndeterioration = {{ capping = 0.0, residual = 1.0, strength = -1.0, exponent = 3.0 }}"),
+        format!(
+            "{yields}\ndeterioration = {{ capping = 0.02, post_capping = 0.1 }}\nexponent = 2.0\npinching = {{ force = 0.4 }}\npreload = 1.0"
+        ),
+        pinches.to_owned(),
+        format!("{pinches}\npinching = {{ force = 1.5, elongation = 0.0, energy = -0.1 }}"),
+        "law = \"pinching\"\nbackbone = [[0.001, 1e3], [0.01, 1.2e4]]\npinching = { force = 0.5 }\nstiffness = 1e6"
+            .to_owned(),
+        "law = \"yielding\"\nstiffness = 1e6\nyield_force = 1e3\npinching = { force = 0.5 }".to_owned(),
+    ];
+    let links: Vec<String> = links.iter().enumerate().map(|(i, text)| link(&format!("l{i}"), text)).collect();
+    assert_snapshot!("hysteresis_that_deteriorates", portal_and(&links.join("\n")));
+    let joint = |name: &str, text: &str| {
+        format!(
+            "[[joints]]\nname = \"{name}\"\nkind = \"revolute\"\nfrom = {{ node = \"knee_right\" }}\nto = {{ ground = [3.0, 0.0, 2.0] }}\naxis = [0.0, 1.0, 0.0]\n{text}\n"
+        )
+    };
+    let joints = [
+        "stiffness = 1e6\ndeterioration = { capping = 0.02, post_capping = 0.1 }",
+        "backbone = [[0.01, 1e3]]\ndeterioration = { capping = 0.02, post_capping = 0.1 }",
+        "stiffness = 1e6\nyield_moment = 1e3\npinching = { force = 0.5 }",
+        "backbone = [[0.01, 1e3], [0.005, 1e3]]\npinching = { force = 0.5 }",
+    ];
+    let joints: Vec<String> = joints.iter().enumerate().map(|(i, text)| joint(&format!("j{i}"), text)).collect();
+    assert_snapshot!("joints_that_deteriorate", portal_and(&joints.join("\n")));
+}
+
 /// Isolators.
 #[test]
 fn isolators() {

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::hysteresis::{Deterioration, Pinching};
 use super::links::End;
 use super::part_damping::SpringDamping;
 use super::words::kinds::Kinds;
@@ -69,6 +70,10 @@ pub struct Joint {
     /// loading is symmetric, each line less steep than the one before, and constant after the last. Unloading and reloading follow it twice
     /// as large.
     pub backbone: Maybe<Vec<At<Numbers<2>>>>,
+    /// Capping of the backbone, and its deterioration with dissipation. (with `yield_moment`, `yield_force`)
+    pub deterioration: Maybe<Table<Deterioration>>,
+    /// Reloading towards the largest coordinate so far. The `backbone` has up to 3 points, and may fall. (with `backbone`)
+    pub pinching: Maybe<Table<Pinching>>,
     /// By how much the joint gives before friction slips, above 0: what sticks is held by a stiff spring, and comes back. Default:
     /// 1e-4 radians, or 1e-5 of the size of the scene.
     pub stick: Maybe<f64>,

@@ -20,6 +20,7 @@ pub mod environment;
 pub mod equations;
 pub mod expect;
 mod hints;
+pub mod hysteresis;
 pub mod initial;
 pub mod joints;
 mod lengths;

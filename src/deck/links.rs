@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::hysteresis::{Deterioration, Pinching};
 use super::part_damping::SpringDamping;
 use super::part_table::PartTable;
 use super::words::{Maybe, Names, NumberOrTable, Numbers, Table, Vector};
@@ -24,18 +25,20 @@ pub struct Link {
     /// Force against elongation. Default: "linear".
     pub law: Maybe<LinkLaw>,
     /// Force per elongation, above 0; of a linear link also 0. Of an isolator, force per displacement across its first axis before it slips or
-    /// yields. (linear, compression-only, tension-only, yielding, bouc-wen, friction-pendulum, lead-rubber)
+    /// yields. (linear, compression-only, tension-only, yielding, bouc-wen, ibarra-medina-krawinkler, friction-pendulum, lead-rubber)
     pub stiffness: Maybe<f64>,
     /// Force per rate of elongation, 0 or more, or `{ beta, viscous }`. Default: 0, and beta of `[damping]`.
     pub damping: Maybe<NumberOrTable<Table<SpringDamping>>>,
     /// Free play before the link acts, a length of 0 or more. Default: 0. (compression-only, tension-only)
     pub gap: Maybe<f64>,
-    /// Force at first yield, above 0. (yielding, bouc-wen, lead-rubber)
+    /// Force at first yield, above 0. (yielding, bouc-wen, ibarra-medina-krawinkler, lead-rubber)
     pub yield_force: Maybe<f64>,
-    /// Slope beyond yielding, 0 or more, below `stiffness`. Default: 0. (yielding, bouc-wen, lead-rubber)
+    /// Slope beyond yielding, 0 or more, below `stiffness`. Default: 0. (yielding, bouc-wen, ibarra-medina-krawinkler,
+    /// lead-rubber)
     pub post_yield_stiffness: Maybe<f64>,
     /// [[elongation, force], ...], up to 6, from first yield on, instead of `stiffness` and the yield keys. The curve of first loading is
     /// symmetric, each line less steep than the one before, and constant after the last. Unloading follows it twice as large. (yielding)
+    /// Of pinching, up to 3 points, which may fall; beyond the last the force is constant.
     pub backbone: Maybe<Vec<At<Numbers<2>>>>,
     /// How sharp the knee at yielding is, 1 or more. Default: 2. (bouc-wen)
     pub exponent: Maybe<f64>,
@@ -45,6 +48,10 @@ pub struct Link {
     pub strength_loss: Maybe<f64>,
     /// Loss of stiffness, likewise. Default: 0. (bouc-wen)
     pub stiffness_loss: Maybe<f64>,
+    /// Capping of the backbone, and its deterioration with dissipation. (ibarra-medina-krawinkler)
+    pub deterioration: Maybe<Table<Deterioration>>,
+    /// Reloading towards the largest elongation so far. (pinching)
+    pub pinching: Maybe<Table<Pinching>>,
     /// Force per displacement along the first of `axes`, above 0: in compression of a pendulum, in both senses of rubber.
     /// (friction-pendulum, lead-rubber)
     pub axial_stiffness: Maybe<f64>,
@@ -164,6 +171,10 @@ pub enum LinkLaw {
     Yielding,
     /// The smooth hysteresis of Bouc and Wen, with loss of strength and stiffness: an isolator, a wire rope, a wall.
     BoucWen,
+    /// Straight lines that fall beyond a cap, with deterioration by dissipation: steel that buckles or tears, a joint of a frame near collapse.
+    IbarraMedinaKrawinkler,
+    /// Straight lines that aim at the largest elongation so far and pinch before: cracked concrete, timber, a loose joint.
+    Pinching,
     /// A slider on a spherical dish: restoring force and friction by the compression of the instant, in all directions across the first of `axes`.
     /// Lifted off, it carries nothing. It has no moments of its own; add a `bushing` for them.
     FrictionPendulum,

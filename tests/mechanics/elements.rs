@@ -12,11 +12,13 @@ use rdsolve::elements::bearing::{Bearing, BearingMatrices, Bearings};
 use rdsolve::elements::bouc_wen::BoucWen;
 use rdsolve::elements::bushing::{Bushing, Bushings};
 use rdsolve::elements::damper::Damper;
+use rdsolve::elements::deteriorating::Deteriorating;
 use rdsolve::elements::heat::Heat;
 use rdsolve::elements::hysteresis::Hysteresis;
 use rdsolve::elements::hysteretic_link::{HystereticLink, HystereticLinks, PathLaw};
 use rdsolve::elements::isolator::{Isolator, IsolatorLaw, Isolators, SlidingFriction};
 use rdsolve::elements::link::{Link, LinkLaw, Links};
+use rdsolve::elements::pinching::{Pinching, Reloading};
 use rdsolve::elements::relative_rotation::RotationalSpring;
 use rdsolve::elements::shell::{self, Plate, Quadrilaterals, Triangles};
 use rdsolve::elements::{ElementBlock, Force, Mechanics, Moduli};
@@ -254,7 +256,14 @@ fn hysteretic_links(rng: &mut StdRng, firmness: f64, kinds: &mut Vec<Kind>) {
         bulge: 0.5,
         losses: [0.02, 0.01],
     };
-    for (name, law) in [("yielding link", PathLaw::Backbone(backbone)), ("smooth link", PathLaw::BoucWen(smooth))] {
+    let laws = [("yielding link", PathLaw::Backbone(backbone)), ("smooth link", PathLaw::BoucWen(smooth))];
+    kinds.extend(links_with_memory(rng, &laws));
+}
+
+/// Links by these laws, along their line and along a direction.
+fn links_with_memory(rng: &mut StdRng, laws: &[(&str, PathLaw)]) -> Vec<Kind> {
+    let mut kinds = Vec::new();
+    for (name, law) in laws {
         for direction in [None, Some(vector(rng, 1.0).normalize())] {
             let frame = rotation::matrix(&turn(rng));
             let x = nodes_of(2, &frame, vector(rng, 2.0));
@@ -262,12 +271,13 @@ fn hysteretic_links(rng: &mut StdRng, firmness: f64, kinds: &mut Vec<Kind>) {
             let length = direction.map_or(1.3, |d| d.dot(&(x[1] - x[0])));
             let damper = Damper { coefficient: 0.7, exponent: 0.4, slow: 0.3 };
             let link = Link::new([0, 1], none, damper, direction, length, [x[0], x[1]]);
-            let block = Box::new(HystereticLinks::new(vec![HystereticLink { link, law, beside: 0.2 }]));
+            let block = Box::new(HystereticLinks::new(vec![HystereticLink { link, law: *law, beside: 0.2 }]));
             let past = vec![0.0; block.history()];
             let along = if direction.is_some() { " along a direction" } else { "" };
             kinds.push(Kind { name: format!("{name}{along}"), block, x, past });
         }
     }
+    kinds
 }
 
 /// A pendulum, pressed in most states, and rubber; both slip at displacements of some hundredths.
@@ -728,4 +738,59 @@ fn small_displacements_keep_their_digits() {
             assert!(off < 1e-23, "{}, row {row}: {off:e}", kind.name);
         }
     }
+}
+
+/// Links that deteriorate and that pinch, over random motions: the tangent against differences, forces in balance, and a memory that is the motion.
+#[test]
+fn links_that_deteriorate_and_pinch() {
+    let mut rng = StdRng::seed_from_u64(41);
+    let deteriorating = Deteriorating {
+        stiffness: 25.0,
+        yield_force: 1.0,
+        post_yield_stiffness: 4.0,
+        capping: 0.1,
+        post_capping: 0.4,
+        residual: 0.1,
+        ultimate: f64::INFINITY,
+        capacities: [3.0, 4.0, 5.0],
+        exponent: 1.0,
+    };
+    let reloading = Reloading { force: 0.4, elongation: 0.6, damage: [0.02, 0.05], unloading: 0.2 };
+    let pinching = Pinching::new(&[[0.04, 1.0], [0.1, 1.8], [0.2, 1.0]], reloading).unwrap();
+    let laws =
+        [("deteriorating link", PathLaw::Deteriorating(deteriorating)), ("pinching link", PathLaw::Pinching(pinching))];
+    let (mut entries, mut corners) = (0, 0);
+    for mut kind in links_with_memory(&mut rng, &laws) {
+        for _ in 0..30 {
+            let nodes = moved(&mut rng, &kind.x, 0.15);
+            let (F, K) = (kind.forces(&nodes), kind.tangent(&nodes, 0.0, Moduli::Algorithmic));
+            let size = F.iter().flatten().fold(1.0f64, |size, f| size.max(f.abs()));
+            assert!((0..3).all(|i| (F[0][i] + F[1][i]).abs() < 1e-13 * size), "{}", kind.name);
+            for column in 0..6 {
+                let at = |h: f64| {
+                    let mut nodes = nodes.clone();
+                    nudge(&mut nodes[column / 3], column % 3, h);
+                    kind.forces(&nodes)
+                };
+                let difference = |h: f64, row: usize| (at(h)[row / 3][row % 3] - at(-h)[row / 3][row % 3]) / (2.0 * h);
+                for row in 0..6 {
+                    let (whole, half) = (difference(1e-5, row), difference(5e-6, row));
+                    entries += 1;
+                    if (whole - half).abs() > 1e-6 * K.amax().max(1.0) {
+                        corners += 1;
+                        continue;
+                    }
+                    // Truncation of h² and cancellation of 1e-16/h of forces up to ten times the stiffness.
+                    assert!((K[(row, column)] - half).abs() < 1e-7 * K.amax().max(1.0), "{} {row} {column}", kind.name);
+                }
+            }
+            let (history, _) = kind.update_history(&nodes);
+            kind.past = history;
+            for (a, b) in kind.forces(&nodes).iter().flatten().zip(F.iter().flatten()) {
+                // Rounding of positions of ten, times a stiffness of 25.
+                assert!((a - b).abs() < 1e-12 * size, "{}: {a} {b}", kind.name);
+            }
+        }
+    }
+    assert!(corners * 100 < entries, "{corners} of {entries}");
 }

@@ -67,7 +67,7 @@ fn circles_turn_the_friction_with_the_way() {
         let turn = TAU * slip * (0.01 - s * s).sqrt();
         let lost = at(&found, 3.0)[3] - at(&found, 2.0)[3];
         // The return to the circle of friction lags by half a step of 2π/500, across the stretch of the spring: 0.0063 s/r, 3e-4 of rubber and 3e-5 of the pendulum.
-        assert!((lost / turn - 1.0).abs() < 1.2 * 0.0063 * s / 0.1, "{law}: {lost} {turn}");
+        assert!((lost / turn - 1.0).abs() < 1.5 * 0.0063 * s / 0.1, "{law}: {lost} {turn}");
     }
 }
 

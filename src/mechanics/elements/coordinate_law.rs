@@ -1,11 +1,11 @@
 //! Effort along a joint coordinate q: spring, damper, stops and dry friction as a function of q, q̇ and history.
 //!
 //! Stops push back as contacts do, with the damping of a set restitution ([`super::contact::restitution`]). Friction is a spring that slips
-//! at its limit (return mapping), so sticking does not creep. A yielding hinge is several such springs ([`super::hysteresis`]). Efforts are
+//! at its limit (return mapping), so sticking does not creep. A yielding hinge is one of the laws of [`super::path_law`]. Efforts are
 //! forces, or moments for an angle; a positive effort pulls the second part back.
 
 use super::contact::restitution::{Loss, normal_force};
-use super::hysteresis::Hysteresis;
+use super::path_law::PathLaw;
 pub use super::slider::CoordinateState;
 use super::slider::DryFriction;
 
@@ -23,7 +23,7 @@ pub struct CoordinateLaw {
     /// Dry friction.
     pub friction: Option<JointFriction>,
     /// Hysteresis of a plastic hinge or yielding damper.
-    pub hysteresis: Option<Hysteresis>,
+    pub hysteresis: Option<PathLaw>,
 }
 
 /// Dry friction, whose limit may grow with the load of the joint.
@@ -78,7 +78,7 @@ impl CoordinateLaw {
     /// Returns the law with a factor β (time) on its elastic stiffness. Stops and friction are unchanged, because their stiffness only
     /// holds parts.
     pub fn damped_by(self, beta: f64) -> CoordinateLaw {
-        let yields = self.hysteresis.as_ref().map_or(0.0, Hysteresis::stiffness);
+        let yields = self.hysteresis.as_ref().map_or(0.0, PathLaw::stiffness);
         CoordinateLaw { damping: self.damping + beta * (self.stiffness + yields), ..self }
     }
 
@@ -93,7 +93,7 @@ impl CoordinateLaw {
     }
 
     fn end_of_hysteresis(&self) -> usize {
-        MEMORY + self.hysteresis.as_ref().map_or(0, Hysteresis::memory)
+        MEMORY + self.hysteresis.as_ref().map_or(0, PathLaw::memory)
     }
 
     /// The spring of friction a time `dt` after the last step, the load going on as it has changed, but not below zero or to more than
@@ -111,15 +111,11 @@ impl CoordinateLaw {
     pub fn at(&self, q: f64, rate: f64, memory: &[f64], dt: f64) -> CoordinateState {
         let stretch = q - self.rest;
         let mut state = CoordinateState {
-            q,
-            rate,
             effort: self.stiffness * stretch + self.damping * rate,
             by_q: self.stiffness,
             by_rate: self.damping,
             energy: 0.5 * self.stiffness * stretch * stretch,
-            slip: 0.0,
-            impact_power: 0.0,
-            impact_speed: 0.0,
+            ..CoordinateState::at(q, rate)
         };
         if let Some(stops) = &self.stops {
             stops.add(memory, &mut state);

@@ -88,6 +88,7 @@ impl Hysteresis {
 mod tests {
     use super::*;
     use crate::elements::coordinate_law::{CoordinateLaw, MEMORY};
+    use crate::elements::path_law::PathLaw;
 
     fn effort(law: &CoordinateLaw, q: f64, anchors: &[f64]) -> CoordinateState {
         let memory: Vec<f64> = [0.0; MEMORY].into_iter().chain(anchors.iter().copied()).collect();
@@ -98,7 +99,7 @@ mod tests {
     fn the_first_loading_follows_the_backbone_and_the_next_twice_of_it() {
         let points = [[0.01, 10.0], [0.03, 16.0], [0.08, 18.0]];
         let hysteresis = Hysteresis::new(&points, 5.0).unwrap();
-        let law = CoordinateLaw { hysteresis: Some(hysteresis), ..CoordinateLaw::FREE };
+        let law = CoordinateLaw { hysteresis: Some(PathLaw::Backbone(hysteresis)), ..CoordinateLaw::FREE };
         let backbone = |q: f64| match q {
             0.0..0.01 => 1000.0 * q,
             0.01..0.03 => 10.0 + 300.0 * (q - 0.01),
@@ -124,7 +125,7 @@ mod tests {
     #[test]
     fn what_is_put_in_is_stored_or_dissipated() {
         let hysteresis = Hysteresis::new(&[[0.01, 10.0], [0.03, 12.0]], 0.0).unwrap();
-        let law = CoordinateLaw { hysteresis: Some(hysteresis), ..CoordinateLaw::FREE };
+        let law = CoordinateLaw { hysteresis: Some(PathLaw::Backbone(hysteresis)), ..CoordinateLaw::FREE };
         let mut anchors = [0.0; 2];
         let (mut work, mut dissipated, mut q) = (0.0, 0.0, 0.0);
         let way = (0..4000).map(|k| 0.05 * (k as f64 * 0.004).sin());

@@ -1,86 +1,20 @@
-//! Springs along a line whose force depends on their past: backbones with kinematic hardening, and the law of Bouc and Wen.
+//! Springs along a line whose force depends on their past, by one of the laws of [`super::path_law`].
 
 use super::block::{Branches, Elements, Force, Mechanics, Moduli, Results, subtract};
-use super::bouc_wen::{self, BoucWen, BoucWenState};
-use super::hysteresis::Hysteresis;
 use super::link::{Link, set_pair};
 use super::memories::places;
+pub use super::path_law::PathLaw;
 use super::slider::CoordinateState;
 use crate::materials::Dissipation;
 use crate::state::{Configuration, Node};
 use base::math::Mat3;
 use std::ops::Range;
 
-/// The force over the elongation and its past.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum PathLaw {
-    /// Springs that slip side by side: straight lines, unloading by twice the backbone.
-    Backbone(Hysteresis),
-    /// Bouc and Wen.
-    BoucWen(BoucWen),
-}
-
 /// Force, slope and stored energy at an elongation.
-struct PathForce {
-    force: f64,
-    slope: f64,
-    energy: f64,
-}
-
-impl PathLaw {
-    /// Force per elongation before anything yields.
-    pub fn stiffness(&self) -> f64 {
-        match self {
-            PathLaw::Backbone(backbone) => backbone.stiffness(),
-            PathLaw::BoucWen(law) => law.stiffness,
-        }
-    }
-
-    /// The number of history variables.
-    pub fn memory(&self) -> usize {
-        match self {
-            PathLaw::Backbone(backbone) => backbone.memory(),
-            PathLaw::BoucWen(_) => bouc_wen::MEMORY,
-        }
-    }
-
-    fn at(&self, x: f64, memory: &[f64]) -> PathForce {
-        match self {
-            PathLaw::Backbone(backbone) => {
-                let mut state = CoordinateState {
-                    q: x,
-                    rate: 0.0,
-                    effort: 0.0,
-                    by_q: 0.0,
-                    by_rate: 0.0,
-                    energy: 0.0,
-                    slip: 0.0,
-                    impact_power: 0.0,
-                    impact_speed: 0.0,
-                };
-                backbone.add(memory, &mut state);
-                PathForce { force: state.effort, slope: state.by_q, energy: state.energy }
-            }
-            PathLaw::BoucWen(law) => {
-                let from = BoucWenState::of(memory);
-                let [force, slope] = law.force(&from, x);
-                PathForce { force, slope, energy: law.energy(&law.moved(&from, x)) }
-            }
-        }
-    }
-
-    /// Moves the memory `part` of the way to the elongation `x`, and returns the dissipation.
-    fn follow(&self, x: f64, part: f64, memory: &mut [f64]) -> f64 {
-        match self {
-            PathLaw::Backbone(backbone) => backbone.follow(x, part, memory),
-            PathLaw::BoucWen(law) => {
-                let from = BoucWenState::of(memory);
-                let to = law.moved(&from, from.x + part * (x - from.x));
-                memory.copy_from_slice(&[to.x, to.z, to.area]);
-                law.dissipated(&from, &to)
-            }
-        }
-    }
+fn at(law: &PathLaw, x: f64, memory: &[f64]) -> CoordinateState {
+    let mut state = CoordinateState::at(x, 0.0);
+    law.add(memory, &mut state);
+    state
 }
 
 /// One such link. A link without stiffness gives its line and its damper.
@@ -104,7 +38,7 @@ impl HystereticLink {
     /// Elongation, its rate, and the force with damper; tension is positive. `memory`: its history variables.
     pub fn state(&self, nodes: &[Node], memory: &[f64]) -> (f64, f64, f64) {
         let line = self.link.line(nodes);
-        (line.delta, line.rate, self.law.at(line.delta, memory).force + self.damping(line.rate).0)
+        (line.delta, line.rate, at(&self.law, line.delta, memory).effort + self.damping(line.rate).0)
     }
 }
 
@@ -165,7 +99,7 @@ impl Mechanics for HystereticLinks {
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
         for (of, memory) in self.with_memory(now.history) {
             let line = of.link.line(now.nodes);
-            let f = (of.law.at(line.delta, memory).force + of.damping(line.rate).0) * line.e;
+            let f = (at(&of.law, line.delta, memory).effort + of.damping(line.rate).0) * line.e;
             subtract(&mut F[of.link.nodes[0]], 0, &-f);
             subtract(&mut F[of.link.nodes[1]], 0, &f);
         }
@@ -174,14 +108,14 @@ impl Mechanics for HystereticLinks {
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         let of = &self.links[e];
         let line = of.link.line(now.nodes);
-        let at = of.law.at(line.delta, remembered(&self.memories[e], now.history));
-        let slope = if moduli == Moduli::Elastic { of.law.stiffness() } else { at.slope };
+        let state = at(&of.law, line.delta, remembered(&self.memories[e], now.history));
+        let slope = if moduli == Moduli::Elastic { of.law.stiffness() } else { state.by_q };
         let (damping, c) = of.damping(line.rate);
         let along = line.e * line.e.transpose();
         let mut k = (slope + rate_weight * c) * along;
         if of.link.direction.is_none() && line.length > 0.0 {
             let across = (Mat3::identity() - along) / line.length;
-            k += (at.force + damping) * across + c * line.e * (across * line.dv).transpose();
+            k += (state.effort + damping) * across + c * line.e * (across * line.dv).transpose();
         }
         set_pair(&k, K);
     }
@@ -202,7 +136,9 @@ impl Results for HystereticLinks {
     }
 
     fn energy(&self, now: &Configuration) -> f64 {
-        self.with_memory(now.history).map(|(of, memory)| of.law.at(of.link.line(now.nodes).delta, memory).energy).sum()
+        self.with_memory(now.history)
+            .map(|(of, memory)| at(&of.law, of.link.line(now.nodes).delta, memory).energy)
+            .sum()
     }
 
     fn damping_power(&self, now: &Configuration) -> f64 {
@@ -229,6 +165,7 @@ impl Branches for HystereticLinks {
 mod tests {
     use super::*;
     use crate::elements::damper::Damper;
+    use crate::elements::hysteresis::Hysteresis;
     use crate::elements::link::LinkLaw;
     use base::math::Vec3;
 

@@ -32,6 +32,23 @@ pub struct CoordinateState {
     pub impact_speed: f64,
 }
 
+impl CoordinateState {
+    /// Without effort at a coordinate and its rate.
+    pub fn at(q: f64, rate: f64) -> CoordinateState {
+        CoordinateState {
+            q,
+            rate,
+            effort: 0.0,
+            by_q: 0.0,
+            by_rate: 0.0,
+            energy: 0.0,
+            slip: 0.0,
+            impact_power: 0.0,
+            impact_speed: 0.0,
+        }
+    }
+}
+
 impl DryFriction {
     /// Stretch of the spring at `q`, and the displacement of its anchor; both zero without a spring.
     pub fn stretch(&self, q: f64, anchor: f64) -> (f64, f64) {

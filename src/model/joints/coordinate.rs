@@ -5,6 +5,7 @@ use crate::data::{
     PrescribedMotion,
 };
 use crate::links::ModelLinks;
+use crate::links::hysteretic::{deteriorating, pinching};
 use crate::own_damping::of_joint;
 use crate::places::nodes::Nodes;
 use crate::report::{Owner, Report};
@@ -22,6 +23,7 @@ use mechanics::constraints::joints::kind::Coordinate;
 use mechanics::elements::contact::restitution::{LEAST, Loss, number};
 use mechanics::elements::coordinate_law::{CoordinateLaw, JointFriction, Stops};
 use mechanics::elements::hysteresis::Hysteresis;
+use mechanics::elements::path_law::PathLaw;
 use std::collections::HashSet;
 
 /// The result of `[[joints]]`.
@@ -317,7 +319,7 @@ impl<'d> CoordinateKeys<'_, 'd> {
     }
 
     /// The hysteresis law, by its yield moment or force, or by its backbone.
-    fn hysteresis(&mut self, coordinate: Coordinate) -> Option<Hysteresis> {
+    fn hysteresis(&mut self, coordinate: Coordinate) -> Option<PathLaw> {
         let joint = self.joint;
         let (moment, force) = (("yield_moment", &joint.yield_moment), ("yield_force", &joint.yield_force));
         let ((key, value), other) = match coordinate {
@@ -332,11 +334,17 @@ impl<'d> CoordinateKeys<'_, 'd> {
             let others = [("stiffness", span(&joint.stiffness)), rest, (key, span(value)), after];
             self.report.reject_unused("a joint with a `backbone`", &others);
             let points: Vec<[f64; 2]> = backbone.value.iter().map(|point| point.value.0).collect();
-            return self.yielding(&backbone.span, &points, 0.0);
+            self.report.reject_unused("a joint with a `backbone`", &keys!(joint; deterioration));
+            return match &joint.pinching {
+                Some(table) => pinching(self.owner, (&points, &backbone.span), table, self.report),
+                None => self.yielding(&backbone.span, &points, 0.0),
+            };
         }
+        self.report.reject_unused("a joint without a `backbone`", &keys!(joint; pinching));
         let Some(limit) = value else {
             if !self.report.is_spoiled(self.owner.span, key) {
-                self.report.reject_unused("a joint that does not yield", &[after]);
+                let deterioration = ("deterioration", span(&joint.deterioration));
+                self.report.reject_unused("a joint that does not yield", &[after, deterioration]);
             }
             return None;
         };
@@ -348,12 +356,15 @@ impl<'d> CoordinateKeys<'_, 'd> {
         if let (Some(given), false) = (&joint.post_yield_stiffness, after < stiffness) {
             return self.report.error(&given.span, "`post_yield_stiffness` must be below `stiffness`");
         }
-        self.yielding(place, &[[limit / stiffness, limit]], after)
+        match &joint.deterioration {
+            Some(table) => deteriorating([stiffness, after, limit], table, self.report),
+            None => self.yielding(place, &[[limit / stiffness, limit]], after),
+        }
     }
 
-    fn yielding(&mut self, place: &'d Span, points: &[[f64; 2]], after: f64) -> Option<Hysteresis> {
+    fn yielding(&mut self, place: &'d Span, points: &[[f64; 2]], after: f64) -> Option<PathLaw> {
         match Hysteresis::new(points, after) {
-            Ok(hysteresis) => Some(hysteresis),
+            Ok(hysteresis) => Some(PathLaw::Backbone(hysteresis)),
             Err(reason) => self.report.error(place, format!("the backbone of {}: {reason}", self.owner.what)),
         }
     }

@@ -162,6 +162,8 @@ fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) ->
         // Read before.
         words::LinkLaw::Yielding
         | words::LinkLaw::BoucWen
+        | words::LinkLaw::IbarraMedinaKrawinkler
+        | words::LinkLaw::Pinching
         | words::LinkLaw::FrictionPendulum
         | words::LinkLaw::LeadRubber => None,
         words::LinkLaw::CompressionOnly | words::LinkLaw::TensionOnly => {

@@ -6,6 +6,7 @@ use rdsolve::constraints::joint::ConstraintEquation;
 use rdsolve::elements::contact::restitution::{Loss, number};
 use rdsolve::elements::coordinate_law::{CoordinateLaw, JointFriction, MEMORY, Stops};
 use rdsolve::elements::hysteresis::Hysteresis;
+use rdsolve::elements::path_law::PathLaw;
 use rdsolve::elements::{Mechanics, Moduli};
 use rdsolve::math::{Mat3, Vec3, Vec6, rotation};
 use rdsolve::state::{Configuration, Node};
@@ -134,7 +135,7 @@ fn laws() -> Vec<CoordinateLaw> {
             ..CoordinateLaw::FREE
         },
         CoordinateLaw {
-            hysteresis: Some(Hysteresis::new(&[[0.1, 0.2], [0.4, 0.3]], 0.1).expect("a backbone")),
+            hysteresis: Some(PathLaw::Backbone(Hysteresis::new(&[[0.1, 0.2], [0.4, 0.3]], 0.1).expect("a backbone"))),
             ..spring
         },
     ]
