@@ -7,6 +7,7 @@ use linear::TooLarge;
 use model::{self, Model};
 use results::settle_cadence;
 use sha2::{Digest, Sha256};
+use solve::modes::reduce;
 use solve::plan::explain::{much_mass_added, redundant_constraints};
 use solve::plan::{Plan, unreachable_targets};
 use solve::share_plane;
@@ -69,7 +70,11 @@ pub fn load(path: &Path, sets: &[String], options: Vec<String>) -> Result<Loaded
 /// # Errors
 /// All faults, with the texts of their places.
 pub fn build(source: Source, sets: &[String]) -> Result<Loaded, (Vec<Diagnostic>, Source)> {
-    let (models, said) = model::read_stages(&source);
+    let (mut models, mut said) = model::read_stages(&source);
+    if let Err(problems) = reduce(&mut models.iter_mut().collect::<Vec<_>>()) {
+        said.extend(problems);
+        models.clear();
+    }
     let mut models = models.into_iter();
     match models.next() {
         Some(model) => {

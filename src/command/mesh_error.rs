@@ -6,6 +6,7 @@ use results::error_bars::ErrorBars;
 use results::expect::Expectations;
 use results::result_json::ReportedMesh;
 use results::wanted;
+use solve::modes::reduce;
 use solve::plan::Plan;
 use solve::system::System;
 use solve::{Frame, Observer, Outcome, Run, StepError};
@@ -49,6 +50,9 @@ pub fn tell_mesh_error(
     let (Some(mut theirs), _) = model::read(&source) else {
         return Err(unknown(&format!("the deck is not valid with {}", sets.join(", "))));
     };
+    if reduce(&mut [&mut theirs]).is_err() {
+        return Err(unknown("a reduced part has no matrices with another mesh"));
+    }
     let system = System::new(&theirs).map_err(|error| unknown(&error))?;
     let plan = Plan::new(&theirs, &system, threads);
     theirs.output.cadence = model.output.cadence;

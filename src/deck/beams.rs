@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::part_damping::PartDamping;
-use super::part_table::{MassKind, PartTable, names};
-use super::words::{Directions, Maybe, Names, Numbers, OneOrMany, Table, Vector};
+use super::part_table::{MassKind, PartTable, ReducedTable, names};
+use super::words::{Directions, Maybe, Names, NumberOrTable, Numbers, OneOrMany, Table, Vector};
 use base::diagnostic::At;
 use mechanics::elements::beam::{DEFAULT_ORDER, IntegrationRule};
 
@@ -41,6 +41,9 @@ pub struct Beam {
     pub mass: Maybe<MassKind>,
     /// The beam is a rigid body of its name, with the mass and inertia of its elements. Default: false.
     pub rigid: Maybe<bool>,
+    /// The beam deforms by so many modes with a fixed interface, and by the static shapes of the interface. The interface are its points
+    /// in the deck, and nodes that other parts, joints, supports and point loads share with it. Displacements are small in a frame that moves with the interface. Default: each node moves.
+    pub reduced: Maybe<NumberOrTable<Table<ReducedTable>>>,
     /// Keep the rotary inertia of the section. Default: true.
     pub rotary_inertia: Maybe<bool>,
     /// The beam deforms in shear; false: its shear stiffness is 10,000 times that of the section, as beams of Euler and Bernoulli have it.
@@ -130,5 +133,9 @@ impl PartTable for Beam {
 
     fn rigid(&self) -> Option<bool> {
         Some(self.rigid.as_ref().is_some_and(|at| at.value))
+    }
+
+    fn reduced(&self) -> Option<&At<NumberOrTable<Table<ReducedTable>>>> {
+        self.reduced.as_ref()
     }
 }

@@ -1,7 +1,7 @@
 //! Properties that every table of a part reports, each in the file of its kind, and common keys of deformable parts.
 
 use super::part_damping::PartDamping;
-use super::words::{Names, OneOrMany, Table};
+use super::words::{Maybe, Names, NumberOrTable, OneOrMany, Table};
 use base::diagnostic::At;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -53,11 +53,26 @@ pub trait PartTable {
     fn rigid(&self) -> Option<bool> {
         None
     }
+
+    /// The key `reduced`.
+    fn reduced(&self) -> Option<&At<NumberOrTable<Table<ReducedTable>>>> {
+        None
+    }
 }
 
 /// The names of a list, none where it is missing.
 pub(super) fn names(list: &Option<At<Names>>) -> Vec<&At<String>> {
     list.iter().flat_map(|list| &list.value.values).collect()
+}
+
+/// The shapes that a reduced part keeps.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ReducedTable {
+    /// The number of modes with a fixed interface, the lowest, 0 to 500. Default: 20.
+    pub modes: Maybe<u64>,
+    /// The highest frequency of these modes, above 0, in cycles per time. Default: without bound.
+    pub up_to: Maybe<f64>,
 }
 
 /// Where the mass of a part goes.

@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::part_damping::PartDamping;
-use super::part_table::{MassKind, PartTable, names};
-use super::words::{Maybe, Named, Names, OneOrMany, Table, Vector};
+use super::part_table::{MassKind, PartTable, ReducedTable, names};
+use super::words::{Maybe, Named, Names, NumberOrTable, OneOrMany, Table, Vector};
 use base::diagnostic::At;
 
 /// A patch of shell elements, or those of a group of the mesh. Its name represents all of its nodes, and `name.edge1` to `name.edge4` those
@@ -54,6 +54,9 @@ pub struct Shell {
     pub mass: Maybe<MassKind>,
     /// The shell is a rigid body of its name, with the mass and inertia of its elements. Default: false.
     pub rigid: Maybe<bool>,
+    /// The shell deforms by so many modes with a fixed interface, and by the static shapes of the interface. The interface are its points
+    /// in the deck, and nodes that other parts, joints, supports and point loads share with it. Displacements are small in a frame that moves with the interface. Default: each node moves.
+    pub reduced: Maybe<NumberOrTable<Table<ReducedTable>>>,
     /// Stiffness per area of an elastic foundation, force per length cubed, along global x, y and z, 0 or more. It acts on the nodes as springs
     /// to the ground, which links.csv lists. Default: none.
     pub foundation: Maybe<Vector>,
@@ -101,6 +104,10 @@ impl PartTable for Shell {
 
     fn rigid(&self) -> Option<bool> {
         Some(self.rigid.as_ref().is_some_and(|at| at.value))
+    }
+
+    fn reduced(&self) -> Option<&At<NumberOrTable<Table<ReducedTable>>>> {
+        self.reduced.as_ref()
     }
 }
 

@@ -59,6 +59,7 @@ use super::procedure::stops::{self, NamedActors};
 use super::procedure::study::study;
 use super::procedure::{analysis, check_explicit};
 use super::records::{Record, load_records};
+use super::reduced::{reductions, share_interfaces};
 use super::report::Report;
 use super::rigid::rigid_bodies;
 use super::scene::Scene;
@@ -124,6 +125,11 @@ pub fn replan(source: &Source, reached: &[f64], planned: &Model) -> Result<Model
             .map_or_else(|| "there is none".to_owned(), |problem| problem.message)
     })?;
     model.analysis.plane = planned.analysis.plane;
+    // Amplitudes beyond the modes that were found are no unknowns.
+    for node in model.reductions.iter().flat_map(|of| &of.amplitudes) {
+        model.nodes[*node].is_number = planned.nodes[*node].is_number;
+    }
+    model.reductions.clone_from(&planned.reductions);
     for contact in model.each_mut::<Contact>() {
         if let Some(known) = planned.each::<Contact>().find(|known| known.name == contact.name) {
             (contact.law, contact.chosen) = (known.law, known.chosen.clone());
@@ -187,6 +193,7 @@ fn build_stages(
         models.clear();
     }
     share_contact_laws(&mut models);
+    share_interfaces(&mut models);
     (models, problems)
 }
 
@@ -274,6 +281,7 @@ fn model<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, files: Files<'d>, 
         stiffnesses: scene.parts.stiffnesses,
         stresses: scene.parts.stresses,
         parts: scene.parts.list.into_iter().chain(links).chain(contacts.into_iter().map(Part::from)).collect(),
+        reductions: Vec::new(),
         constraints: Constraints {
             turns: given_turns(&acting.turned, &restraints),
             dependents,
@@ -526,6 +534,9 @@ fn finish(mut model: Model, all_nodes: bool, deck: &Deck, report: &mut Report) -
         make_elastic(&mut model);
     }
     drop_unused(&mut model);
+    if !report.has_errors() {
+        reductions(&mut model, deck, report);
+    }
     if all_nodes {
         write_all_nodes(&mut model);
     }

@@ -113,6 +113,8 @@ pub(super) fn write_all_nodes(model: &mut Model) {
     }
     let amplitudes = model.parts.iter_mut().filter(|part| part.kind().is_floating());
     amplitudes.for_each(|part| part.visit_nodes(&mut |&mut node| is_other[node] |= model.nodes[node].is_number));
+    let reduced = model.reductions.iter().flat_map(|reduction| &reduction.amplitudes);
+    reduced.for_each(|&node| is_other[node] = true);
     model.output.nodes = (0..model.nodes.len()).filter(|&node| !is_other[node]).collect();
 }
 

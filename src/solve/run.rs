@@ -110,7 +110,10 @@ impl<'a> Run<'a> {
             (None, None) => start(cx, ws),
         };
         let mut state = match began {
-            Ok(state) => state,
+            Ok(mut state) => {
+                cx.system.recover(&mut state.nodes);
+                state
+            }
             Err(failure) => return (Outcome::of(failure, cx.model.analysis.begin), None),
         };
         if checkpoint.is_none() {

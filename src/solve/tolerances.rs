@@ -925,3 +925,9 @@ pub mod throws {
     /// Steps after which a touching body rests.
     pub const STEPS: f64 = 10.0;
 }
+
+pub mod reduction {
+    /// Difference between the initial velocity of an inner node and that of the static shapes, as a part of the largest. Shapes of
+    /// ill-conditioned parts have 1e-8.
+    pub const CARRIED: f64 = 1e-6;
+}

@@ -86,10 +86,12 @@ pub enum Warning {
         /// True where the shell yields by logarithmic strain.
         logarithmic: bool,
     },
-    /// A superelement is bent too far for its matrices.
+    /// A superelement or a reduced part is bent too far for its matrices.
     Bent {
-        /// The name of the superelement.
+        /// Its name.
         name: String,
+        /// True for a reduced part.
+        reduced: bool,
         /// The largest rotation of a node in its frame, in radians.
         turn: f64,
     },
@@ -155,7 +157,7 @@ keep_either!(Warning {
     15 => SlipBegins(what),
     20 => LargeRotation { label, turn },
     21 => BeyondYield { name, stress, limit },
-    22 => Bent { name, turn },
+    22 => Bent { name, reduced, turn },
 });
 
 /// The time and the mode of an instability.
@@ -372,7 +374,7 @@ impl fmt::Display for Warning {
             Warning::RotationDrifts { label, direction, drift } => drifted(label, direction, *drift),
             Warning::LargeRotation { label, turn } => large_rotation(label, *turn),
             Warning::BeyondYield { name, stress, limit } => beyond_yield(name, *stress, *limit),
-            Warning::Bent { name, turn } => bent(name, *turn),
+            Warning::Bent { name, reduced, turn } => bent(name, *reduced, *turn),
             Warning::LargeStrain { name, strain, logarithmic } => large_strain(name, *strain, *logarithmic),
             Warning::SideBySide { name } => side_by_side(name),
             Warning::ContactThrows(found) => found.to_string(),
@@ -396,11 +398,15 @@ fn large_rotation(label: &str, turn: f64) -> String {
     )
 }
 
-/// The message of a superelement that is bent too far.
-fn bent(name: &str, turn: f64) -> String {
+/// The message of a superelement or a reduced part that is bent too far.
+fn bent(name: &str, reduced: bool, turn: f64) -> String {
+    let [what, remedy] = match reduced {
+        false => ["superelement", "Replace it by several superelements, or by `[[beams]]` or `[[shells]]`"],
+        true => ["reduced part", "Divide it into several reduced parts, or leave `reduced` out"],
+    };
     format!(
-        "superelement `{name}` deforms by rotations of {} rad in its frame. Its matrices take them as infinitesimal, so displacements there are \
-         wrong by about {} %. Replace it by several superelements, or by `[[beams]]` or `[[shells]]`",
+        "{what} `{name}` deforms by rotations of {} rad in its frame. Its matrices take them as infinitesimal, so displacements there are \
+         wrong by about {} %. {remedy}",
         to_digits(turn, 2),
         to_digits(100.0 * turn * turn / 3.0, 1)
     )
@@ -489,16 +495,17 @@ impl Warnings {
         }
     }
 
-    /// Adds the largest rotation of a superelement in its frame, or keeps it where it is larger than the one known.
-    pub fn bend(&mut self, part: &str, largest: f64) {
+    /// Adds the largest rotation of a superelement or a reduced part in its frame, or keeps it where it is larger than the one known.
+    pub fn bend(&mut self, part: &str, is_reduced: bool, largest: f64) {
         let known = self.warnings.iter_mut().find_map(|known| match known {
-            Warning::Bent { name, turn } => Some((name, turn)),
+            Warning::Bent { name, reduced, turn } => Some((name, reduced, turn)),
             _ => None,
         });
         match known {
-            None => self.warnings.push(Warning::Bent { name: part.to_owned(), turn: largest }),
-            Some((name, turn)) if largest > *turn => {
+            None => self.warnings.push(Warning::Bent { name: part.to_owned(), reduced: is_reduced, turn: largest }),
+            Some((name, reduced, turn)) if largest > *turn => {
                 part.clone_into(name);
+                *reduced = is_reduced;
                 *turn = largest;
             }
             Some(_) => {}

@@ -148,6 +148,19 @@ fn superelements_neither() {
         model.expects.clear();
         assert_none(&model, rdsolve::linear::Factorization::BlockLu);
     }
+    // The same blade of reduced beams, under a load over its length.
+    let path = crate::support::decks().join("spin_up/reduced/deck.toml");
+    let text = std::fs::read_to_string(&path).expect("a deck");
+    let text = text + "\n[[loads]]\npart = \"piece_4\"\nforce_per_length = [0.0, 0.1, 1.0]\n";
+    for scheme in ["newmark", "generalized-alpha", "esdirk3"] {
+        let sets = [format!("integrator={{scheme=\"{scheme}\"}}")];
+        let source = Source::new(path.display().to_string(), text.as_str(), &sets);
+        let mut model = rdsolve::model::read(&source).0.expect("a sound deck");
+        rdsolve::modes::reduce(&mut [&mut model]).expect("matrices");
+        model.analysis.end_time = 0.5;
+        model.expects.clear();
+        assert_none(&model, rdsolve::linear::Factorization::BlockLu);
+    }
 }
 
 /// A ball that rolls on a floor, lands on a beam and leaves it.

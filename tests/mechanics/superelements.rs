@@ -4,10 +4,12 @@ use crate::support::random::{turn, vector};
 use nalgebra::DMatrix;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
-use rdsolve::elements::superelement::{FloatingElement, FloatingWeights, SuperelementBlock, SuperelementData};
+use rdsolve::elements::superelement::{
+    FloatingElement, FloatingWeights, InnerNodes, SuperelementBlock, SuperelementData,
+};
 use rdsolve::elements::{Force, Mechanics, Moduli, Results};
 use rdsolve::math::rotation::{exp, rates};
-use rdsolve::math::{Mat3, Vec3, skew};
+use rdsolve::math::{Mat3, Vec3, Vec6, skew};
 use rdsolve::state::{Configuration, Node};
 use std::sync::Arc;
 
@@ -406,5 +408,142 @@ fn the_gyroscopic_tangent_is_the_derivative_of_inertia_and_weight() {
         let off = departure(&random, &nodes, &K, forces, add_rates);
         // The square of the step, and rounding over the step.
         assert!(off < 1e-8, "{off:e}");
+    }
+}
+
+/// Two inner nodes of a random superelement, which come last.
+struct WithInner {
+    random: Random,
+    of: FloatingElement,
+    inner: InnerNodes,
+    own: [usize; 2],
+}
+
+impl WithInner {
+    fn all() -> impl Iterator<Item = WithInner> {
+        all().into_iter().filter(|random| random.data.turns).map(|mut random| {
+            let first = random.x.len();
+            let own = [first, first + 1];
+            let places: [Vec3; 2] = std::array::from_fn(|_| vector(&mut random.rng, 1.0) + Vec3::new(5.0, -2.0, 1.0));
+            random.x.extend(places);
+            let of = FloatingElement::new(random.data.clone(), &random.x, 0.0);
+            let size = random.data.size();
+            let shapes: Vec<f64> = (0..12 * size).map(|_| random.rng.random_range(-0.3..0.3)).collect();
+            let inner = InnerNodes::new(&of, &own, &random.x, Arc::from(shapes));
+            WithInner { random, of, inner, own }
+        })
+    }
+
+    fn state(&mut self) -> Vec<Node> {
+        let mut nodes = self.random.state(0.2, 1.0);
+        self.of.recover(&self.inner, &mut nodes);
+        nodes
+    }
+
+    /// The nodes after the time t, with constant second derivatives of displacements and rotation vectors.
+    fn after(&self, nodes: &[Node], t: f64) -> Vec<Node> {
+        let mut moved = nodes.to_vec();
+        for node in &mut moved[..self.own[0]] {
+            let (v, a) = (node.v, node.a);
+            node.x += t * v + 0.5 * t * t * a;
+            node.rotation = exp(&(t * node.omega + 0.5 * t * t * node.alpha)) * node.rotation;
+        }
+        self.of.recover(&self.inner, &mut moved);
+        moved
+    }
+}
+
+/// Velocities and accelerations of inner nodes are the derivatives of their places and rotations.
+#[test]
+fn inner_nodes_have_the_rates_of_their_places() {
+    for mut with in WithInner::all() {
+        let nodes = with.state();
+        let h = 1e-3;
+        let at = [-2.0, -1.0, 1.0, 2.0].map(|k| with.after(&nodes, k * h));
+        for node in with.own {
+            let x = [0, 1, 2, 3].map(|k| at[k][node].x - nodes[node].x);
+            let turn = [0, 1, 2, 3]
+                .map(|k| rdsolve::math::rotation::log(&(at[k][node].rotation * nodes[node].rotation.conjugate())));
+            // Differences of the fourth order, of errors of 1e-12 times the fifth derivative, and rounding over h².
+            let first = |of: &[Vec3; 4]| (8.0 * (of[2] - of[1]) - (of[3] - of[0])) / (12.0 * h);
+            let second = |of: &[Vec3; 4]| (16.0 * (of[2] + of[1]) - (of[3] + of[0])) / (12.0 * h * h);
+            let own = &nodes[node];
+            for (found, expected) in
+                [(own.v, first(&x)), (own.omega, first(&turn)), (own.a, second(&x)), (own.alpha, second(&turn))]
+            {
+                assert!((found - expected).norm() < 1e-7 * (1.0 + expected.norm()), "{found} {expected}");
+            }
+        }
+    }
+}
+
+/// Small motions of inner nodes are the derivatives of their places; forces on them do the same work after they have been moved.
+#[test]
+fn forces_on_inner_nodes_do_their_work_on_the_superelement() {
+    for mut with in WithInner::all() {
+        let nodes = with.state();
+        let h = 1e-6;
+        let forces: Vec<Vec6> = (0..2)
+            .map(|_| {
+                let (f, m) = (vector(&mut with.random.rng, 1.0), vector(&mut with.random.rng, 1.0));
+                Vec6::new(f.x, f.y, f.z, m.x, m.y, m.z)
+            })
+            .collect();
+        let mut F = vec![[0.0; 6]; nodes.len()];
+        with.own.iter().zip(&forces).for_each(|(&node, force)| F[node] = (*force).into());
+        with.of.transfer(&with.inner, &nodes, &mut F);
+        assert!(with.own.iter().all(|&node| F[node] == [0.0; 6]));
+        for (node, dof) in with.random.dofs().into_iter().filter(|(node, _)| *node < with.own[0]) {
+            let mut motions = vec![Vec6::zeros(); nodes.len()];
+            motions[node][dof] = 1.0;
+            with.of.carry(&with.inner, &nodes, &mut motions);
+            let at = [-h, h].map(|h| {
+                let mut nodes = moved(&nodes, (node, dof), h);
+                with.of.recover(&with.inner, &mut nodes);
+                nodes
+            });
+            let mut work = 0.0;
+            for (&own, force) in with.own.iter().zip(&forces) {
+                let x = (at[1][own].x - at[0][own].x) / (2.0 * h);
+                let turn =
+                    rdsolve::math::rotation::log(&(at[1][own].rotation * at[0][own].rotation.conjugate())) / (2.0 * h);
+                // The square of the step, and rounding of coordinates of 10 over it.
+                assert!((motions[own].fixed_rows::<3>(0) - x).norm() < 1e-8, "{} {x}", motions[own]);
+                assert!((motions[own].fixed_rows::<3>(3) - turn).norm() < 1e-8, "{} {turn}", motions[own]);
+                work += motions[own].dot(force);
+            }
+            assert!((work - F[node][dof]).abs() < 1e-12 * (1.0 + work.abs()), "{work} {}", F[node][dof]);
+        }
+    }
+}
+
+#[test]
+fn inner_nodes_turn_with_the_whole() {
+    for mut with in WithInner::all() {
+        let mut nodes = with.state();
+        let (whole, far) = (turn(&mut with.random.rng), vector(&mut with.random.rng, 3.0));
+        let R = rdsolve::math::rotation::matrix(&whole);
+        let before = nodes.clone();
+        for node in &mut nodes[..with.random.data.interface] {
+            *node = Node {
+                x: R * node.x + far,
+                rotation: whole * node.rotation,
+                v: R * node.v,
+                omega: R * node.omega,
+                a: R * node.a,
+                alpha: R * node.alpha,
+                ..*node
+            };
+        }
+        with.of.recover(&with.inner, &mut nodes);
+        for node in with.own {
+            let (now, then) = (&nodes[node], &before[node]);
+            // Rounding of coordinates of 10.
+            assert!((now.x - R * then.x - far).norm() < 1e-13 * 100.0);
+            for (now, then) in [(now.v, then.v), (now.a, then.a), (now.omega, then.omega), (now.alpha, then.alpha)] {
+                assert!((now - R * then).norm() < 1e-11 * (1.0 + then.norm()), "{now} {then}");
+            }
+            assert!((now.R() - R * then.R()).norm() < 1e-12);
+        }
     }
 }

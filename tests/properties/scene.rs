@@ -71,6 +71,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
         stiffnesses: vec![],
         stresses: vec![],
         parts: vec![],
+        reductions: Vec::new(),
         constraints: Constraints { restraints: vec![], ..Constraints::default() },
         cases: LoadCases::default(),
         loading: Loading::default(),

@@ -128,6 +128,7 @@ pub fn model() -> Model {
                 touchers: Default::default(),
             }),
         ],
+        reductions: Vec::new(),
         constraints: Constraints {
             restraints: vec![Restraint { node: 0, dof: 0, motion: None }, Restraint { node: 0, dof: 5, motion: None }],
             ..Constraints::default()

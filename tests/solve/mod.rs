@@ -36,6 +36,7 @@ mod order;
 mod plan;
 mod plasticity;
 mod pretension;
+mod reduced;
 mod reruns;
 mod rotated_matrix;
 mod rounding;

@@ -87,11 +87,18 @@ pub fn warnings_of(text: &str) -> Vec<String> {
     model::read(&Source::new("deck.toml", text, &[])).1.into_iter().map(|problem| problem.message).collect()
 }
 
+/// A model with the matrices of its reduced parts.
+fn with_matrices(mut model: Model) -> Model {
+    rdsolve::modes::reduce(&mut [&mut model]).expect("matrices of reduced parts");
+    model
+}
+
 /// The model of a deck below `decks/`, with entries overridden as by `--set`.
 pub fn read(name: &str, sets: &[String]) -> Model {
     let source = source(name, sets);
     let (model, problems) = model::read(&source);
     model
+        .map(with_matrices)
         .unwrap_or_else(|| panic!("{}", problems.iter().map(|p| p.draw(&source, false)).collect::<Vec<_>>().join("\n")))
 }
 
@@ -100,6 +107,7 @@ pub fn read_stages(source: &Source) -> Vec<Model> {
     let (mut models, problems) = model::read_stages(source);
     let said = || problems.iter().map(|p| p.draw(source, false)).collect::<Vec<_>>().join("\n");
     assert!(!models.is_empty(), "{}", said());
+    rdsolve::modes::reduce(&mut models.iter_mut().collect::<Vec<_>>()).expect("matrices of reduced parts");
     share_plane(models.iter_mut()).expect("systems");
     models
 }
@@ -331,6 +339,7 @@ pub fn read_deck(text: &str) -> Model {
     let source = Source::new("deck.toml", text, &[]);
     let (model, problems) = model::read(&source);
     model
+        .map(with_matrices)
         .unwrap_or_else(|| panic!("{}", problems.iter().map(|p| p.draw(&source, false)).collect::<Vec<_>>().join("\n")))
 }
 

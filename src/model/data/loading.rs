@@ -65,6 +65,8 @@ pub struct Load {
 pub enum LoadOrigin {
     /// An element over which a load per length is spread: the part, by its index in [`super::Model::parts`], and its element.
     Element(usize, usize),
+    /// Parts, surfaces or edges over which a load is spread.
+    Spread,
     /// The coordinate of a joint: the load acts on the node as far as this moves the coordinate.
     Coordinate(LoadedCoordinate),
 }

@@ -8,6 +8,7 @@ use super::loading::{Damping, Loading};
 use super::node::{Body, Mass, Node};
 use super::output::Output;
 use super::part::{Part, PartType};
+use super::reduction::Reduction;
 use super::step_length::{SAFE, SAFE_WHERE_STRUCK};
 use super::study::Study;
 use deck::parts::PartKind;
@@ -34,6 +35,8 @@ pub struct Model {
     pub stresses: Vec<Option<SectionStresses>>,
     /// Beams, then bars, shells, links and contacts, each kind in deck order: the order of numbering, assembly and rows.
     pub parts: Vec<Part>,
+    /// Parts that deform by a few shapes.
+    pub reductions: Vec<Reduction>,
     /// Rigid links, joints and restraints.
     pub constraints: Constraints,
     /// Loads and amplitudes.
@@ -59,6 +62,11 @@ impl Model {
         let place = self.parts.partition_point(|other| other.kind() <= part.kind());
         self.parts.insert(place, part);
         place
+    }
+
+    /// The reduction of a part, by its index in [`Model::parts`].
+    pub fn reduction(&self, part: usize) -> Option<&Reduction> {
+        self.reductions.iter().find(|reduction| reduction.parts.contains(&part))
     }
 
     /// The nodes whose displacement along x is a number rather than a way in space.

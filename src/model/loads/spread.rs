@@ -1,6 +1,6 @@
 //! `[[loads]]` spread over shells, along their edges, and along beams and bars.
 
-use crate::data::{Load, Part, Pressure};
+use crate::data::{Load, LoadOrigin, Part, Pressure};
 use crate::group_names::{GroupChoice, GroupPlace};
 use crate::loads::per_length::{LineLoad, is_chain};
 use crate::places::nodes::Topology;
@@ -69,7 +69,7 @@ pub fn spread_load<'d>(
         moment,
         follower: false,
         amplitude,
-        origin: None,
+        origin: Some(LoadOrigin::Spread),
         moment_counts: false,
     };
     let faces = spread.faces;

@@ -14,16 +14,8 @@ pub fn drop_unused(model: &mut Model) {
 
 /// Calls `of` with every node that the model names, dependent nodes aside.
 fn visit_nodes(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
-    model.bodies.iter_mut().for_each(|body| of(&mut body.node));
-    model.masses.iter_mut().for_each(|mass| of(&mut mass.node));
+    visit_actors(model, of);
     model.parts.iter_mut().for_each(|part| part.visit_nodes(of));
-    for joint in &mut model.constraints.joints {
-        joint.ends.iter_mut().chain(joint.more.iter_mut().map(|share| &mut share.node)).for_each(&mut *of);
-    }
-    let drives = model.constraints.joints.iter_mut().filter_map(|joint| joint.coordinate.as_mut()?.drive.as_mut());
-    drives.for_each(|drive| of(&mut drive.node));
-    model.constraints.restraints.iter_mut().for_each(|restraint| of(&mut restraint.node));
-    model.constraints.targets.iter_mut().for_each(|([node, _], _)| of(node));
     for load in &mut model.loading.nodal {
         of(&mut load.node);
         if let Some(LoadOrigin::Coordinate(coordinate)) = &mut load.origin {
@@ -31,13 +23,28 @@ fn visit_nodes(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
         }
     }
     model.loading.pressures.iter_mut().flat_map(|load| &mut load.faces).flat_map(Face::nodes_mut).for_each(&mut *of);
-    model.damping.nodal.iter_mut().for_each(|damping| of(&mut damping.node));
     model.output.nodes.iter_mut().for_each(&mut *of);
     model.output.drifts.iter_mut().flat_map(|drift| &mut drift.ends).for_each(&mut *of);
     for expect in &mut model.expects {
         if let ExpectAt::Node(node) = &mut expect.at {
             of(node);
         }
+    }
+}
+
+/// Calls `of` with every node of bodies, constraints, dampers, load cases and stops.
+pub fn visit_actors(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
+    model.bodies.iter_mut().for_each(|body| of(&mut body.node));
+    model.masses.iter_mut().for_each(|mass| of(&mut mass.node));
+    for joint in &mut model.constraints.joints {
+        joint.ends.iter_mut().chain(joint.more.iter_mut().map(|share| &mut share.node)).for_each(&mut *of);
+    }
+    let drives = model.constraints.joints.iter_mut().filter_map(|joint| joint.coordinate.as_mut()?.drive.as_mut());
+    drives.for_each(|drive| of(&mut drive.node));
+    model.constraints.restraints.iter_mut().for_each(|restraint| of(&mut restraint.node));
+    model.constraints.targets.iter_mut().for_each(|([node, _], _)| of(node));
+    model.damping.nodal.iter_mut().for_each(|damping| of(&mut damping.node));
+    for expect in &mut model.expects {
         if let When::Target(target) = &mut expect.when {
             of(&mut target.node);
         }

@@ -3,7 +3,7 @@
 pub mod files;
 mod matrix_file;
 mod order;
-mod rigid_motion;
+pub mod rigid_motion;
 
 use super::data::{Part, PartIndex, PartKind, Superelement};
 use super::own_damping;

@@ -14,15 +14,21 @@ const DIGITS: f64 = 1e-5;
 
 /// The matrices of a superelement in the order of its nodes, six degrees of freedom each, then amplitudes; global components.
 pub struct SuperelementMatrices {
+    /// Stiffness.
     pub stiffness: DMatrix<f64>,
+    /// Mass; `None` for a part without.
     pub mass: Option<DMatrix<f64>>,
+    /// Damping; `None` for a part without.
     pub damping: Option<DMatrix<f64>>,
 }
 
 /// The fault of a matrix.
 pub struct WrongMatrix {
+    /// The key of the deck.
     pub key: &'static str,
+    /// What is wrong.
     pub message: String,
+    /// The remedy.
     pub hint: &'static str,
 }
 

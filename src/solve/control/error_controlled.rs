@@ -219,7 +219,7 @@ impl<'a> ErrorController<'a> {
             };
             errors[node] = cx.plan.dofs.of(node).mask(&error);
         }
-        cx.system.project(&state.nodes, errors);
+        cx.system.carry_all(&state.nodes, errors);
     }
 }
 
@@ -239,7 +239,7 @@ fn filter(cx: &Context, ws: &mut Workspace, state: &State, matrix: &mut Iteratio
     for &node in &cx.independent_nodes {
         errors[node] = ws.correction.of(cx.plan.dofs.of(node));
     }
-    cx.system.project(&state.nodes, errors);
+    cx.system.carry_all(&state.nodes, errors);
 }
 
 impl FollowTolerance for ErrorController<'_> {

@@ -1,4 +1,4 @@
-//! Checks the strain of yielding shells, and the rotations of superelements in their frames: beyond the range of their strain measure
+//! Checks the strain of yielding shells, and the rotations of superelements and reduced parts in their frames: beyond the range of their strain measure
 //! forces are wrong.
 
 use crate::context::Context;
@@ -23,11 +23,17 @@ impl Guard for StrainGuard {
 
 fn look(cx: &Context, warnings: &mut Warnings, state: &State) {
     let now = state.configuration();
+    for following in cx.system.following() {
+        let turn = following.rotation(&state.nodes);
+        if turn > BENT {
+            warnings.bend(cx.model.parts[following.part].name(), true, turn);
+        }
+    }
     for group in &cx.system.groups {
         let own = group.configuration(&now);
         let turn = group.block.local_rotation(&own);
         if turn > BENT {
-            warnings.bend(group.part_of(0, cx.model).name(), turn);
+            warnings.bend(group.part_of(0, cx.model).name(), group.reduces, turn);
         }
         group.block.surface_strains(&own, &mut |e, strain, is_logarithmic| {
             let [least, most] = if is_logarithmic { LARGE_LOGARITHMIC } else { [-LARGE, LARGE] };

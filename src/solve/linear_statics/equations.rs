@@ -116,7 +116,7 @@ impl LinearEquations {
             rhs[..unknowns].fill(0.0);
             let each = cx.plan.dofs.each_node().iter().zip(&*moved).zip(&mut out.motions);
             each.for_each(|((rows, moved), motion)| *motion = moved + rows.gather(sum));
-            cx.system.project(nodes, &mut out.motions);
+            cx.system.carry_all(nodes, &mut out.motions);
             cx.system.gaps_of_motion(nodes, &out.motions, &mut multipliers.gaps);
         }
         ws.solves += closings;

@@ -137,6 +137,12 @@ fn warnings_of(at: &Linearized, rests: bool, (found, wanted): (&[Factor], usize)
             part.name()
         ));
     }
+    if let Some(of) = at.model.reductions.first() {
+        warnings.push(format!(
+            "{} keeps its stiffness under compression because it is reduced: buckling inside of it is not found. Leave `reduced` out",
+            of.title
+        ));
+    }
     if !rests {
         warnings.push(
             "without the loads the scene is not in equilibrium, because parts have prestress. Factors are those of the given geometry with this \

@@ -79,7 +79,7 @@ impl Linearized<'_> {
     /// The small motions of all nodes, dependent ones included, from the motions `x` of the unknowns.
     pub fn motions(&self, nodes: &[Node], x: &[f64]) -> Vec<Vec6> {
         let mut motions: Vec<Vec6> = self.plan.dofs.each_node().iter().map(|rows| rows.gather(x)).collect();
-        self.system.project(nodes, &mut motions);
+        self.system.carry_all(nodes, &mut motions);
         motions
     }
 

@@ -40,7 +40,8 @@ impl Shapes {
             }
             // Forces on dependent nodes have been transferred to their masters.
             let mut whole = Vec6::zeros();
-            for (n, f) in forces.on_nodes.iter().enumerate() {
+            // Forces on amplitudes of modes are no forces in space.
+            for (n, f) in forces.on_nodes.iter().enumerate().filter(|(n, _)| !at.model.nodes[*n].is_number) {
                 let (f, m) = (Vec3::new(f[0], f[1], f[2]), Vec3::new(f[3], f[4], f[5]));
                 whole += stack(&f, &(m + (nodes[n].x - about).cross(&f)));
             }

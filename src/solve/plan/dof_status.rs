@@ -21,6 +21,8 @@ pub enum DofStatus {
     Inactive,
     /// Leads out of the plane of a plane motion.
     Plane,
+    /// Follows from the shapes of a reduced part.
+    Reduced,
 }
 
 /// The status of a node's six degrees of freedom.
@@ -71,6 +73,9 @@ pub fn classify(model: &Model, system: &System) -> Vec<NodeStatus> {
         for dof in (0..6).filter(|&d| dependent.dofs[d]) {
             statuses[dependent.node][dof] = DofStatus::Dependent;
         }
+    }
+    for node in system.following().iter().flat_map(|following| following.nodes()) {
+        statuses[*node] = [DofStatus::Reduced; 6];
     }
     for restraint in &model.constraints.restraints {
         statuses[restraint.node][restraint.dof] = DofStatus::Restrained;

@@ -24,7 +24,7 @@ fn why_unreachable(plan: &Plan, model: &Model, target: &DisplacementTarget) -> O
     let &DisplacementTarget { node, dof, place: [start, end], .. } = target;
     let why = match plan.nodes[node][dof] {
         // A dependent node moves with its master, which the deck allows or not.
-        DofStatus::Unknown | DofStatus::Dependent => return None,
+        DofStatus::Unknown | DofStatus::Dependent | DofStatus::Reduced => return None,
         DofStatus::Restrained => "a support gives it",
         DofStatus::Unused => "nothing acts on it",
         DofStatus::Inactive => "nothing sets it moving",

@@ -1,18 +1,19 @@
 //! Builds the masses of nodes, the blocks of like elements, and the joints from the model.
 
-use super::floating::FloatingMass;
 use super::group::{Group, GroupBlock};
 use super::inertia::{ConsistentMass, Inertia};
 use super::parts::{NodalMasses, Setting, assembled};
+use super::reduced;
 use base::math::Vec3;
 use mechanics::constraints::joint::{ConstraintEquation, Joint};
-use model::{self, Body, Mass, Model, Part};
-use std::sync::Arc;
+use mechanics::elements::superelement::SuperelementBlock;
+use model::{self, Body, Mass, Model, Part, PartKind};
 
 /// Lumped and consistent masses of bodies, point masses and deformable parts; `x` are the initial positions of all
 /// nodes.
 pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) {
-    masses_of(model, x, model.bodies.iter(), model.masses.iter(), model.parts.iter())
+    let parts = model.parts.iter().enumerate().filter(|(part, _)| model.reduction(*part).is_none());
+    masses_of(model, x, model.bodies.iter(), model.masses.iter(), parts.map(|(_, part)| part))
 }
 
 /// [`masses`] of some of the bodies, point masses and parts.
@@ -40,21 +41,24 @@ pub fn masses_of<'m>(
     (masses.lumped.finish(), masses.consistent)
 }
 
-/// The masses of superelements.
-pub fn floating(model: &Model, x: &[Vec3]) -> Vec<FloatingMass> {
-    let of_part = |part: &model::Part| {
-        let element = assembled(part).floating(x, 0.0).filter(|element| element.total_mass() > 0.0)?;
-        Some(FloatingMass { element: Arc::new(element), alpha: model.damping.alpha(&part.own_damping()) })
-    };
-    model.parts.iter().filter_map(of_part).collect()
-}
-
 /// The blocks of like elements in the order of the parts. `plane` is the normal of a plane motion.
 pub fn groups(model: &Model, x: &[Vec3], plane: Option<usize>) -> Vec<Group> {
     let setting = Setting { model, x, plane };
     let mut groups = Vec::new();
     let mut end = 0;
     for (place, part) in model.parts.iter().enumerate() {
+        if let Some(of) = model.reduction(place) {
+            let made = reduced::element(model, of, x, model.damping.beta(&of.damping)).filter(|_| of.parts[0] == place);
+            groups.extend(made.map(|element| Group {
+                block: GroupBlock::Elements(Box::new(SuperelementBlock(element))),
+                kind: PartKind::Superelement,
+                part: place,
+                first: 0,
+                history: end..end,
+                reduces: true,
+            }));
+            continue;
+        }
         let elements = assembled(part).blocks(&setting).into_iter();
         let elements = elements.map(|(block, first)| (GroupBlock::Elements(block), first));
         let pairs = assembled(part).pairs(&setting).into_iter();
@@ -63,7 +67,7 @@ pub fn groups(model: &Model, x: &[Vec3], plane: Option<usize>) -> Vec<Group> {
             if !block.is_empty() {
                 let history = end..end + block.history();
                 end = history.end;
-                groups.push(Group { block, kind: part.kind(), part: place, first, history });
+                groups.push(Group { block, kind: part.kind(), part: place, first, history, reduces: false });
             }
         }
     }

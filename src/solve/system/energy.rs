@@ -149,7 +149,7 @@ fn motion(system: &System, nodes: &[Node]) -> (f64, Vec3, Vec3) {
         l += dl;
     }
     for mass in system.floating() {
-        let (own, dp, dl) = mass.element.motion(nodes);
+        let (own, dp, dl) = mass.motion(nodes);
         kinetic += own;
         p += dp;
         l += dl;

@@ -1,7 +1,7 @@
 //! Everything that acts on the nodes of a scene, and the residual of the equation of motion.
 
 use super::centrifugal::CentrifugalLoad;
-use super::floating::FloatingMass;
+use super::floating::{FloatingMass, floating_masses};
 use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia};
 use super::joint_loads::{self, JointLoad};
@@ -12,6 +12,7 @@ use super::multipliers::Multipliers;
 use super::node_sums::SumChunk;
 use super::parts::beam_ends::BeamEnds;
 use super::parts::links::{self, LinkElement};
+use super::reduced::{FollowingNodes, resting_groups};
 use super::scale::Scale;
 use super::thread_partition::{GroupMemory, Partition};
 use super::turning_body::TurningBody;
@@ -40,6 +41,10 @@ pub struct System {
     pub consistent: Vec<ConsistentMass>,
     /// The masses of superelements.
     floating: Vec<FloatingMass>,
+    /// The nodes inside of reduced parts.
+    following: Vec<FollowingNodes>,
+    /// The elements of reduced parts, for their results.
+    resting: Vec<Group>,
     /// The dependent nodes, sorted such that a master precedes its dependent nodes.
     pub rigid_links: Vec<RigidLink>,
     /// The joints in the order of the model's list, without the constraint equations that a plane motion does not need.
@@ -169,6 +174,9 @@ impl System {
         let rigid_links =
             model.constraints.dependents.iter().map(|r| RigidLink::new(r.node, r.master, &x, r.dofs)).collect();
         let rigid_links = rigid_link::sorted(rigid_links, x.len()).ok_or("the attachments form a cycle")?;
+        let following = model.reductions.iter().map(|of| FollowingNodes::new(model, of, &x)).collect::<Option<_>>();
+        let following: Vec<FollowingNodes> =
+            following.ok_or("the matrices of a reduced part have not been computed")?;
         let (mut inertias, consistent) = build::masses(model, &x);
         let plane = normal(model, &inertias, &rigid_links);
         thin_axes::raise(model, (&mut inertias, &consistent), &rigid_links, plane);
@@ -184,7 +192,9 @@ impl System {
             inertias,
             turning_bodies,
             consistent,
-            floating: build::floating(model, &x),
+            floating: floating_masses(model, &x),
+            following,
+            resting: resting_groups(model, &x),
             regularization: match joint_tree::is_tree(model, &joints, &rigid_links) {
                 true => REGULARIZATION_OF_TREES,
                 false => REGULARIZATION,
@@ -219,6 +229,8 @@ impl System {
             turning_bodies: Vec::new(),
             consistent: self.consistent.clone(),
             floating: self.floating.clone(),
+            following: Vec::new(),
+            resting: Vec::new(),
             rigid_links: self.rigid_links.clone(),
             joints: self.joints.clone(),
             regularization: self.regularization,
@@ -364,6 +376,7 @@ impl System {
     /// Transfers the forces on dependent nodes to their masters, the last in a chain first, and keeps them separately for the tangent.
     pub(super) fn transfer_to_masters(&self, nodes: &[Node], forces: &mut Forces) {
         let F = &mut forces.on_nodes[..];
+        self.following.iter().for_each(|following| following.transfer(nodes, F));
         for (dependent, force) in self.rigid_links.iter().zip(&mut forces.on_dependents).rev() {
             *force = Vec3::new(F[dependent.node][0], F[dependent.node][1], F[dependent.node][2]);
             dependent.transfer_to_masters(nodes, F);
@@ -545,6 +558,27 @@ impl System {
         powers
     }
 
+    /// The nodes inside of reduced parts.
+    pub fn following(&self) -> &[FollowingNodes] {
+        &self.following
+    }
+
+    /// Writes the motion of the nodes inside of reduced parts.
+    pub fn recover(&self, nodes: &mut [Node]) {
+        self.following.iter().for_each(|following| following.recover(nodes));
+    }
+
+    /// The groups that give results, in the order of the parts: the elements of reduced parts in place of their superelements.
+    pub fn shown_groups(&self) -> impl Iterator<Item = &Group> {
+        let mut acting = self.groups.iter().filter(|group| !group.reduces).peekable();
+        let mut resting = self.resting.iter().peekable();
+        std::iter::from_fn(move || match (acting.peek(), resting.peek()) {
+            (Some(first), Some(second)) if first.part > second.part => resting.next(),
+            (None, _) => resting.next(),
+            _ => acting.next(),
+        })
+    }
+
     /// The masses of superelements.
     pub(super) fn floating(&self) -> &[FloatingMass] {
         &self.floating
@@ -596,6 +630,12 @@ impl System {
                 motions[dependent.node][i] = carried[i];
             }
         }
+    }
+
+    /// Like [`System::project`], with the small motions of nodes inside of reduced parts too.
+    pub fn carry_all(&self, nodes: &[Node], motions: &mut [Vec6]) {
+        self.project(nodes, motions);
+        self.following.iter().for_each(|following| following.carry(nodes, motions));
     }
 
     /// Multiplies the small motions of all nodes by M. The products are written into `forces.on_nodes`, transferred to

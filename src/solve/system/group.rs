@@ -56,6 +56,8 @@ pub struct Group {
     pub first: usize,
     /// The group's range of [`mechanics::state::State::history`].
     pub history: Range<usize>,
+    /// True for the superelement of a reduced part, whose own elements give the results.
+    pub reduces: bool,
 }
 
 impl Group {

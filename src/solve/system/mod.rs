@@ -37,6 +37,8 @@ pub mod parts;
 mod penalties;
 mod plane;
 mod plane_motion;
+mod reduced;
+mod reduced_mass;
 pub mod results;
 mod scale;
 mod schur_factor;

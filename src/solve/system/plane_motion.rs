@@ -24,7 +24,8 @@ fn is_plane(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink], norm
     let plane = MotionPlane { normal, size };
     let flat = |p: &Node| (p.x[normal] - first.x[normal]).abs() <= SMALL * size;
     let still = |p: &Node| plane.contains(&p.v) && plane.is_normal(&p.omega);
-    model.nodes.iter().all(|p| flat(p) && still(p))
+    model.reductions.is_empty()
+        && model.nodes.iter().all(|p| flat(p) && still(p))
         && holds_loading(&plane, first.x[normal], &model.loading)
         && holds_constraints(&plane, model)
         && inertias.iter().all(|i| plane.decouples(&i.J0))

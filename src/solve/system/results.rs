@@ -13,7 +13,7 @@ use model::Model;
 /// Writes the axial force of each element of all bars into `out`, in deck order.
 pub fn axial_forces(system: &System, now: &Configuration, out: &mut Vec<f64>) {
     out.clear();
-    for group in system.groups.iter().filter(|group| group.kind.is_deformable()) {
+    for group in system.shown_groups().filter(|group| group.kind.is_deformable()) {
         let now = group.configuration(now);
         out.extend((0..group.block.len()).filter_map(|e| group.block.axial_force(e, &now)));
     }
@@ -39,7 +39,7 @@ pub fn bushing_turns_too_far(system: &System, start: &[Node], end: &[Node], dt: 
 /// order.
 pub fn plastic_strains(system: &System, now: &Configuration, out: &mut Vec<f64>) {
     out.clear();
-    for group in system.groups.iter().filter(|group| group.kind.is_deformable()) {
+    for group in system.shown_groups().filter(|group| group.kind.is_deformable()) {
         let history = group.configuration(now).history;
         out.extend((0..group.block.len()).map(|e| group.block.plastic_strain(e, history)));
     }
@@ -48,7 +48,7 @@ pub fn plastic_strains(system: &System, now: &Configuration, out: &mut Vec<f64>)
 /// Writes for each of these elements whether it has failed into `out`, which stays empty if no element can fail.
 pub fn failed(system: &System, now: &Configuration, out: &mut Vec<bool>) {
     out.clear();
-    let own = || system.groups.iter().filter(|group| group.kind.is_deformable());
+    let own = || system.shown_groups().filter(|group| group.kind.is_deformable());
     if own().any(|group| group.block.can_fail()) {
         for group in own() {
             let history = group.configuration(now).history;
@@ -65,13 +65,13 @@ pub fn shell_states(
     balance: &mut ShearBalance,
     out: &mut Vec<ShellState>,
 ) {
-    shells::shell_states(&system.groups, model, now, out);
+    shells::shell_states(system.shown_groups(), model, now, out);
     balance.apply(model, out);
 }
 
 /// Writes the stress resultants at each node of each element of all beams into `out`, in deck order.
 pub fn nodal_resultants(system: &System, model: &Model, now: &Configuration, out: &mut Vec<[f64; 6]>) {
-    beams::nodal_resultants(&system.groups, model, now, out);
+    beams::nodal_resultants(system.shown_groups(), model, now, out);
 }
 
 /// Writes the stress resultants of all beams into `out`, in deck order, at integration points, and at ends if wanted; `loading` holds the
@@ -84,5 +84,5 @@ pub fn section_points(
 ) {
     let acting =
         system.beam_ends().map(|ends| EndForces { ends, loads: &system.loads, loading, damping: &system.mass_damping });
-    beam_sections::section_points(&system.groups, model, now, acting, out);
+    beam_sections::section_points(system.shown_groups(), model, now, acting, out);
 }

@@ -126,7 +126,7 @@ fn best(B: &Mat3) -> Mat3 {
 }
 
 /// The unit quaternion of a rotation matrix, from its largest component.
-fn quaternion(E: &Mat3) -> Quaternion<f64> {
+pub(super) fn quaternion(E: &Mat3) -> Quaternion<f64> {
     let t = E.trace();
     let squares = [1.0 + t, 1.0 + 2.0 * E[(0, 0)] - t, 1.0 + 2.0 * E[(1, 1)] - t, 1.0 + 2.0 * E[(2, 2)] - t];
     let v = 2.0 * axial(E);

@@ -174,6 +174,18 @@ impl FloatingElement {
         self.subtract(frame, p, F);
     }
 
+    /// Writes the mass matrix along the axes of the frame times `weight`, row-major over six degrees of freedom of each node.
+    pub fn mass_tangent(&self, nodes: &[Node], weight: f64, K: &mut [f64]) {
+        K.fill(0.0);
+        let Scratch { frame, vectors: [column, ..], .. } = &mut *self.scratch();
+        self.place(nodes, frame);
+        self.each_motion(frame, |moved| {
+            let row = &self.data.mass[moved.dof * column.len()..(moved.dof + 1) * column.len()];
+            column.iter_mut().zip(row).for_each(|(entry, mass)| *entry = weight * mass);
+            self.add_column(&frame.R, column, [moved.node, moved.direction], K);
+        });
+    }
+
     /// Writes the derivative of inertia forces and of the weight by a `field`, with the sign of a stiffness, row-major over six degrees of
     /// freedom of each node. Without gyroscopic terms inertia forces are those of the mass matrix alone.
     pub fn inertia_tangent(&self, nodes: &[Node], field: &Vec3, weights: &FloatingWeights, K: &mut [f64]) {

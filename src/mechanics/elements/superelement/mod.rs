@@ -9,8 +9,10 @@ mod elastic;
 mod frame;
 mod inertia;
 mod inertia_change;
+mod recovery;
 
 pub use elastic::SuperelementBlock;
+pub use recovery::InnerNodes;
 
 use base::math::{Mat3, Vec3, skew};
 use frame::{FloatingFrame, axial};

@@ -30,7 +30,7 @@ fn degrees_of_freedom(plan: &Plan, system: &System) -> Vec<String> {
     let axis = ["x", "y", "z"][system.plane.unwrap_or(0)];
     let plane =
         format!("degrees of freedom out of the plane normal to {axis}: the scene is plane, nothing excites them");
-    let reasons: [(DofStatus, Range<usize>, &str); 6] = [
+    let reasons: [(DofStatus, Range<usize>, &str); 7] = [
         (DofStatus::Restrained, 0..6, "restrained or prescribed degrees of freedom"),
         (
             DofStatus::Dependent,
@@ -41,6 +41,11 @@ fn degrees_of_freedom(plan: &Plan, system: &System) -> Vec<String> {
         (DofStatus::Unused, 3..6, "rotations without element or rotary inertia"),
         (DofStatus::Inactive, 0..6, "inactive degrees of freedom: free masses that nothing sets in motion"),
         (DofStatus::Plane, 0..6, &plane),
+        (
+            DofStatus::Reduced,
+            0..6,
+            "degrees of freedom inside of reduced parts: they follow from the interface and the modes",
+        ),
     ];
     let counted = reasons.into_iter().map(|(why, dofs, what)| (plan.count(why, dofs), what));
     let line = |(count, what): (usize, &str)| match count {

@@ -5,7 +5,7 @@ use super::{bars, beams, contacts, links, shells};
 use crate::plan::Plan;
 use crate::system::System;
 use base::names::{joined, short};
-use model::{Joint, JointCoordinate, MeshFile, Model, Part, PartKind};
+use model::{Joint, JointCoordinate, MeshFile, Model, Part, PartKind, Reduction};
 
 /// The lines about the parts of each kind.
 const PARTS: [fn(&mut Explanation, &Model, &System); 5] =
@@ -23,6 +23,7 @@ pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &Syst
         let (of, mass, elements) = (joined(&words), short(body.mass), rigid.elements);
         text.add("rigid", format!("{of} as body `{}`, mass {mass}, in place of its {elements} elements", body.name));
     }
+    model.reductions.iter().for_each(|of| text.add("reduced", reduced(of)));
     text.add("unknowns", plan.dofs.unknowns().to_string());
     let multipliers = system.multipliers();
     if multipliers > 0 {
@@ -31,6 +32,19 @@ pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &Syst
     }
     explain_coordinates(text, model);
     PARTS.iter().for_each(|explain| explain(text, model, system));
+}
+
+/// A reduced part in words.
+fn reduced(of: &Reduction) -> String {
+    let Some(made) = &of.made else { return of.title.clone() };
+    let (interface, modes) = (6 * of.interface.len(), made.frequencies.len());
+    let up_to = made.frequencies.last().map_or(String::new(), |last| format!(" up to {}", short(*last)));
+    let next = made.next.map_or(String::new(), |next| format!("; the next mode has {}", short(next)));
+    format!(
+        "{}: {interface} unknowns of the interface and {modes} modes{up_to}, in place of {}{next}",
+        of.title,
+        interface + made.replaced
+    )
 }
 
 /// Note on a plane scene whose modes may leave the plane.

@@ -47,8 +47,8 @@ pub struct EndForces<'a> {
 
 /// Writes the stress resultants of all beams into `out`, in deck order: at their integration points, and with `acting` also at the ends of
 /// their elements.
-pub fn section_points(
-    groups: &[Group],
+pub fn section_points<'g>(
+    groups: impl Iterator<Item = &'g Group>,
     model: &Model,
     now: &Configuration,
     acting: Option<EndForces>,

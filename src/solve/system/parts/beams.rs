@@ -126,7 +126,12 @@ pub(super) fn consistent(beam: &Beam, element: &BeamElement, stiffnesses: &[Stif
 
 /// Writes N, V_y, V_z, T, M_y, M_z at each node of each element of all beams into `out`, in deck order. The values are polynomials through
 /// the integration points, or through both ends if there is one point.
-pub fn nodal_resultants(groups: &[Group], model: &Model, now: &Configuration, out: &mut Vec<[f64; 6]>) {
+pub fn nodal_resultants<'g>(
+    groups: impl Iterator<Item = &'g Group>,
+    model: &Model,
+    now: &Configuration,
+    out: &mut Vec<[f64; 6]>,
+) {
     out.clear();
     for group in groups {
         let Some(beam) = Beam::of(&model.parts[group.part]) else { continue };

@@ -13,7 +13,7 @@ pub mod shell_shear;
 pub mod shells;
 mod superelements;
 
-pub use assembled::{Assembled, NodeSpacing, Setting};
+pub use assembled::{Assembled, NodeSpacing, NumberedBlock, Setting};
 pub use masses::{LumpedElement, NodalMasses, NodalShare};
 
 use model::{Part, PartKind};

@@ -143,7 +143,12 @@ fn block(part: &Shell, piece: Range<usize>, &Setting { model, x, .. }: &Setting)
 }
 
 /// Writes the stress resultants of all elements of all shells into `out`, in deck order.
-pub fn shell_states(groups: &[Group], model: &Model, now: &Configuration, out: &mut Vec<ShellState>) {
+pub fn shell_states<'g>(
+    groups: impl Iterator<Item = &'g Group>,
+    model: &Model,
+    now: &Configuration,
+    out: &mut Vec<ShellState>,
+) {
     out.clear();
     for group in groups {
         let Some(shell) = Shell::of(&model.parts[group.part]) else { continue };

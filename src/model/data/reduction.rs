@@ -1,0 +1,45 @@
+//! Parts that deform by a few shapes.
+
+use super::loading::OwnDamping;
+use mechanics::elements::superelement::SuperelementData;
+use std::sync::Arc;
+
+/// Parts that are reduced together: elements on inner nodes, in whose place a superelement on the interface acts.
+#[derive(Debug, Clone)]
+pub struct Reduction {
+    /// The deck's name.
+    pub name: String,
+    /// The part in words, like "shell `roof`".
+    pub title: String,
+    /// Indices into [`super::Model::parts`], ascending.
+    pub parts: Vec<usize>,
+    /// The nodes by which the rest of the scene acts on the parts, ascending.
+    pub interface: Vec<usize>,
+    /// The other nodes of the parts, ascending.
+    pub inner: Vec<usize>,
+    /// A node for each modal amplitude that the deck asks for.
+    pub amplitudes: Vec<usize>,
+    /// The highest frequency that is kept; `None` without a bound.
+    pub up_to: Option<f64>,
+    /// Rayleigh factors of the parts.
+    pub damping: OwnDamping,
+    /// Where the deck asks for it: first byte, and the one after the last.
+    pub place: [usize; 2],
+    /// The matrices; `None` until they have been computed.
+    pub made: Option<Arc<ReducedPart>>,
+}
+
+/// A reduced part by its matrices and shapes.
+#[derive(Debug)]
+pub struct ReducedPart {
+    /// The superelement: interface and amplitudes.
+    pub matrices: SuperelementData,
+    /// The shapes: six rows for each inner node, over the degrees of freedom of the superelement; row-major.
+    pub shapes: Arc<[f64]>,
+    /// Frequencies of the modes with a fixed interface, ascending.
+    pub frequencies: Vec<f64>,
+    /// The frequency of the first mode that is left out; `None` where none is, or it is not known.
+    pub next: Option<f64>,
+    /// Unknowns of the inner nodes, which the amplitudes replace.
+    pub replaced: usize,
+}

@@ -1,0 +1,194 @@
+//! `reduced` of beams and shells: the interface of the part with the rest of the scene, and what cannot be reduced.
+//!
+//! A node belongs to the interface where it is a point of the deck, or where another part, a body, a joint, a support, a point load, a damper or
+//! a stop names it. Spread loads and
+//! weight act on inner nodes by the shapes; outputs and expected values follow from these as well.
+
+use super::data::{LoadOrigin, Model, Node, Part, Reduction};
+use super::plausibility::unused::visit_actors;
+use super::report::Report;
+use base::diagnostic::{At, Span};
+use base::math::Vec3;
+use deck::Deck;
+use deck::part_table::{MassKind, ReducedTable};
+use deck::parts::DeckPart;
+use deck::words::{NumberOrTable, Table};
+use std::collections::BTreeSet;
+
+/// Modes where the deck gives a frequency alone.
+const MODES: usize = 20;
+/// Most modes of a part: their matrices are full.
+const MOST: usize = 500;
+
+/// Lists the reduced parts of a model, with a node for each amplitude.
+pub(super) fn reductions(model: &mut Model, deck: &Deck, report: &mut Report) {
+    let asked: Vec<DeckPart> = deck.parts().filter(|part| part.table.reduced().is_some()).collect();
+    if asked.is_empty() {
+        return;
+    }
+    let acting = acting_nodes(model);
+    for part in asked {
+        if let Some(made) = reduction(model, &part, &acting, report) {
+            model.reductions.push(made);
+        }
+    }
+}
+
+/// The nodes on which anything but parts of elements and spread loads acts, or of which the analysis asks.
+fn acting_nodes(model: &mut Model) -> BTreeSet<usize> {
+    let mut nodes = BTreeSet::new();
+    visit_actors(model, &mut |node| {
+        nodes.insert(*node);
+    });
+    // Results at points of the deck are those that count.
+    nodes.extend((0..model.nodes.len()).filter(|&node| model.nodes[node].named));
+    let constraints = &model.constraints;
+    nodes.extend(constraints.dependents.iter().flat_map(|dependent| [dependent.node, dependent.master]));
+    let spread = |origin: &Option<LoadOrigin>| matches!(origin, Some(LoadOrigin::Element(..) | LoadOrigin::Spread));
+    nodes
+        .extend(model.loading.nodal.iter().filter(|load| load.follower || !spread(&load.origin)).map(|load| load.node));
+    nodes
+}
+
+fn reduction(model: &mut Model, part: &DeckPart, acting: &BTreeSet<usize>, report: &mut Report) -> Option<Reduction> {
+    let asked = part.table.reduced()?;
+    let (modes, up_to) = extent(asked, report)?;
+    let name = part.label();
+    let is_own = |other: &Part| other.kind() == part.at.kind && other.name() == name;
+    let parts: Vec<usize> = (0..model.parts.len()).filter(|&index| is_own(&model.parts[index])).collect();
+    refuse(model, part, &parts, &asked.span, report)?;
+    let nodes_of = |part: &Part| -> Vec<usize> {
+        (0..part.elements()).flat_map(|element| part.nodes(element).to_vec()).chain(part.touched_nodes()).collect()
+    };
+    let nodes: BTreeSet<usize> = parts.iter().flat_map(|&index| nodes_of(&model.parts[index])).collect();
+    let others = (0..model.parts.len()).filter(|index| !parts.contains(index));
+    let shared: BTreeSet<usize> = others.flat_map(|index| nodes_of(&model.parts[index])).collect();
+    let is_interface = |node: &&usize| acting.contains(node) || shared.contains(node);
+    let mut interface: Vec<usize> = nodes.iter().filter(is_interface).copied().collect();
+    // The frame of a free part moves with the node nearest to its middle.
+    if interface.is_empty() {
+        let x = |node: &usize| model.nodes[*node].x;
+        let middle = nodes.iter().map(x).sum::<Vec3>() / nodes.len() as f64;
+        let away = |node: &usize| (x(node) - middle).norm();
+        interface.extend(nodes.iter().copied().min_by(|a, b| away(a).total_cmp(&away(b))));
+    }
+    let inner: Vec<usize> = nodes.into_iter().filter(|node| interface.binary_search(node).is_err()).collect();
+    if inner.is_empty() {
+        let message = format!(
+            "`reduced` leaves nothing out of {}: supports, links, loads or other parts act on each of its nodes",
+            part.title()
+        );
+        return report.error_with(&asked.span, message, "leave `reduced` out");
+    }
+    if inner
+        .iter()
+        .any(|node| model.loading.pressures.iter().flat_map(|load| &load.faces).any(|face| face.nodes().contains(node)))
+    {
+        let message = format!("a pressure turns with the surface of {}, and its reduced shapes do not", part.title());
+        return report.error_with(
+            &asked.span,
+            message,
+            "give `force_per_area` in place of `pressure`, or leave `reduced` out",
+        );
+    }
+    let damping = model.parts[*parts.first()?].own_damping();
+    let amplitudes = amplitudes(model, &name, interface[0], modes.min(6 * inner.len()));
+    let place = [asked.span.start, asked.span.end];
+    let title = part.title();
+    Some(Reduction { name, title, parts, interface, inner, amplitudes, up_to, damping, place, made: None })
+}
+
+/// The number of modes, and the highest frequency.
+fn extent(asked: &At<NumberOrTable<Table<ReducedTable>>>, report: &mut Report) -> Option<(usize, Option<f64>)> {
+    let (modes, up_to) = match &asked.value {
+        NumberOrTable::Number(modes) => (*modes, None),
+        NumberOrTable::Table(table) => {
+            let up_to = report.positive("up_to", &table.up_to);
+            let modes = table.modes.as_ref().map(|modes| modes.value as f64);
+            if modes.is_none() && table.up_to.is_none() && !report.is_any_spoiled(&asked.span) {
+                let hint = "give it `modes`, such as { modes = 20 }, `up_to`, or both";
+                return report.error_with(&asked.span, "`reduced` is empty", hint);
+            }
+            (modes.unwrap_or(MODES as f64), up_to)
+        }
+    };
+    if modes < 0.0 || modes.fract() != 0.0 || modes > MOST as f64 {
+        let message = format!("`reduced` needs a whole number of modes from 0 to {MOST}");
+        return report.error_with(&asked.span, message, "20 suffice for most parts; 0 keeps the static shapes alone");
+    }
+    Some((modes as usize, up_to))
+}
+
+/// Refuses what shapes of small displacements do not have.
+fn refuse(model: &Model, part: &DeckPart, parts: &[usize], place: &Span, report: &mut Report) -> Option<()> {
+    let title = part.title();
+    let own = || parts.iter().map(|&index| &model.parts[index]);
+    let is_turning = || model.loading.centrifugal.iter().any(|load| load.of.parts.iter().any(|of| parts.contains(of)));
+    let faults: [(bool, String, &str); 6] = [
+        (
+            part.is_rigid(),
+            format!("{title} is `rigid` and `reduced`"),
+            "keep one of the two: `rigid` has no deformation, `reduced` a few shapes of it",
+        ),
+        (
+            own().any(|part| part.yields()),
+            format!("the material of {title} yields, and reduced shapes are elastic"),
+            "give it a material without `yield_stress`, or leave `reduced` out",
+        ),
+        (
+            own().filter_map(|part| part.heat()).any(|heat| heat.numbers.iter().any(Option::is_some)),
+            format!("{title} is heated, and reduced shapes have no temperature"),
+            "leave `reduced` out, or the `temperature`",
+        ),
+        (
+            own().any(|part| part.mass_kind() == Some(MassKind::FreeNodes)),
+            format!("`mass = \"free-nodes\"` does not apply to {title}, which is reduced"),
+            "give `mass` = \"lumped\" or \"consistent\"",
+        ),
+        (
+            is_turning(),
+            format!("a centrifugal load does not act on {title}, which is reduced"),
+            "leave `reduced` out, or let a support with a `motion` turn all in dynamics",
+        ),
+        (
+            model.analysis.is_dynamic() && model.solution.scheme.is_explicit(),
+            format!("explicit schemes do not take {title}, which is reduced: its masses are coupled"),
+            "give an implicit scheme, such as `scheme` = \"generalized-alpha\"",
+        ),
+    ];
+    for (_, message, hint) in faults.into_iter().filter(|(is_so, ..)| *is_so) {
+        return report.error_with(place, message, hint);
+    }
+    // A part with errors has no elements.
+    (!parts.is_empty()).then_some(())
+}
+
+/// A node for each amplitude.
+fn amplitudes(model: &mut Model, name: &str, near: usize, modes: usize) -> Vec<usize> {
+    let x = model.nodes[near].x;
+    let first = model.nodes.len();
+    model.nodes.extend((1..=modes).map(|mode| {
+        let label = format!("{name}, mode {mode}");
+        let (v, omega) = Default::default();
+        Node { label, named: false, is_number: true, x, v, omega, given: [None, None], place: None }
+    }));
+    (first..model.nodes.len()).collect()
+}
+
+/// Gives reduced parts the same interface in all stages: whatever any of them needs.
+pub(super) fn share_interfaces(models: &mut [Model]) {
+    let mut shared: Vec<BTreeSet<usize>> = Vec::new();
+    for reduction in models.iter().flat_map(|model| model.reductions.iter().enumerate()) {
+        let (index, of) = reduction;
+        if shared.len() <= index {
+            shared.push(BTreeSet::new());
+        }
+        shared[index].extend(&of.interface);
+    }
+    for (index, reduction) in models.iter_mut().flat_map(|model| model.reductions.iter_mut().enumerate()) {
+        let moved: Vec<usize> = reduction.inner.iter().copied().filter(|node| shared[index].contains(node)).collect();
+        reduction.inner.retain(|node| !moved.contains(node));
+        reduction.interface.extend(moved);
+        reduction.interface.sort_unstable();
+    }
+}

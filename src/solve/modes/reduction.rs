@@ -1,0 +1,340 @@
+//! Reduced parts: their stiffness and mass over the motions of the interface and modes with a fixed interface.
+//!
+//! The static shapes Ψ are the motions of inner nodes, without inertia, by unit motions of the interface; the modes φ have a fixed interface.
+//! With Φ = [Ψ φ] the matrices are Φᵀ K Φ and Φᵀ M Φ, which have the rigid motions, the static stiffness and the mass of the part exactly
+//! (R. R. Craig, M. C. C. Bampton, AIAA J. 6 (1968) 1313-1319). K and M are those of the part at t = 0, without loads.
+
+use super::fault::ModesFault;
+use super::linearized::Linearized;
+use super::modal::natural_pairs;
+use super::pencil::Pencil;
+use crate::plan::Plan;
+use crate::system::{Forces, Loading, System};
+use crate::tolerances::reduction::CARRIED;
+use base::diagnostic::Diagnostic;
+use base::math::{Vec3, Vec6};
+use mechanics::elements::Moduli;
+use mechanics::elements::superelement::SuperelementData;
+use mechanics::state::{Configuration, Node, State};
+use model::{
+    AnalysisKind, Constraints, Damping, LoadCases, Loading as ModelLoading, ModeExtent, Model, ModesAsked, ReducedPart,
+    Reduction, Restraint, StepLength, SuperelementMatrices, settle,
+};
+use nalgebra::DMatrix;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// Computes the matrices of the reduced parts of all stages, which share them.
+///
+/// # Errors
+/// The parts without matrices, in the words of the deck.
+pub fn reduce(models: &mut [&mut Model]) -> Result<(), Vec<Diagnostic>> {
+    let mut problems = Vec::new();
+    let count = models.first().map_or(0, |model| model.reductions.len());
+    for index in 0..count {
+        let model = &*models[0];
+        let of = &model.reductions[index];
+        match of.made.clone().map_or_else(|| reduced(model, of).map(Arc::new), Ok) {
+            Ok(made) => {
+                problems.extend(models.iter().filter_map(|model| other_velocities(model, index, &made)));
+                models.iter_mut().for_each(|model| keep(model, index, &made));
+            }
+            Err(why) => problems.push(
+                Diagnostic::error(format!("{} cannot be reduced: {why}", of.title)).at(&(of.place[0]..of.place[1])),
+            ),
+        }
+    }
+    problems.retain(Diagnostic::is_error);
+    if problems.is_empty() { Ok(()) } else { Err(problems) }
+}
+
+/// Gives a model the matrices of a reduced part. Nodes of amplitudes beyond its modes are left without one.
+fn keep(model: &mut Model, index: usize, made: &Arc<ReducedPart>) {
+    let Some(of) = model.reductions.get_mut(index) else { return };
+    for node in of.amplitudes.drain(made.frequencies.len()..) {
+        model.nodes[node].is_number = false;
+    }
+    of.made = Some(made.clone());
+}
+
+/// The error of initial velocities of inner nodes that are not those of the shapes.
+fn other_velocities(model: &Model, index: usize, made: &ReducedPart) -> Option<Diagnostic> {
+    let of = model.reductions.get(index).filter(|_| model.analysis.is_dynamic())?;
+    let size = made.matrices.size();
+    let mut at_interface = vec![0.0; size];
+    for (i, &node) in of.interface.iter().enumerate() {
+        at_interface[6 * i..6 * i + 3].copy_from_slice(model.nodes[node].v.as_slice());
+        at_interface[6 * i + 3..6 * i + 6].copy_from_slice(model.nodes[node].omega.as_slice());
+    }
+    let largest = of.inner.iter().map(|&node| model.nodes[node].v.norm()).fold(0.0, f64::max);
+    let differs = |(k, &node): (usize, &usize)| {
+        let row = |axis: usize| -> f64 {
+            let shape = &made.shapes[(6 * k + axis) * size..(6 * k + axis + 1) * size];
+            shape.iter().zip(&at_interface).map(|(shape, v)| shape * v).sum()
+        };
+        (model.nodes[node].v - Vec3::new(row(0), row(1), row(2))).norm() > CARRIED * largest
+    };
+    let (_, node) = of.inner.iter().enumerate().find(|(k, node)| differs((*k, node)))?;
+    let message = format!(
+        "the initial velocity of `{}`, inside of {}, is not that of the static shapes of its interface",
+        model.nodes[*node].label, of.title
+    );
+    let hint =
+        "give the whole part one rigid motion, by `velocity`, `angular_velocity` and `about`, or leave `reduced` out";
+    Some(Diagnostic::error(message).at(&(of.place[0]..of.place[1])).hint(hint))
+}
+
+/// The part alone, with its interface held.
+fn alone(model: &Model, of: &Reduction) -> Model {
+    let mut own = Model {
+        parts: of.parts.iter().map(|&part| model.parts[part].clone()).collect(),
+        nodes: model.nodes.clone(),
+        stiffnesses: model.stiffnesses.clone(),
+        title: String::new(),
+        analysis: model.analysis.clone(),
+        solution: model.solution.clone(),
+        bodies: Vec::new(),
+        masses: Vec::new(),
+        stresses: model.stresses.clone(),
+        reductions: Vec::new(),
+        constraints: Constraints::default(),
+        loading: ModelLoading::default(),
+        cases: LoadCases::default(),
+        damping: Damping::default(),
+        expects: Vec::new(),
+        origin: Default::default(),
+        output: model.output.clone(),
+        study: None,
+    };
+    own.nodes.iter_mut().for_each(|node| {
+        node.is_number = false;
+        (node.v, node.omega) = (Vec3::zeros(), Vec3::zeros());
+    });
+    let held = |&node: &usize| (0..6).map(move |dof| Restraint { node, dof, motion: None });
+    own.constraints.restraints = of.interface.iter().flat_map(held).collect();
+    let analysis = &mut own.analysis;
+    let asked = ModesAsked { extent: ModeExtent::Count(of.amplitudes.len()), damped: false, speeds: Vec::new() };
+    (analysis.kind, analysis.is_linear, analysis.plane) = (AnalysisKind::Modal(asked), false, false);
+    (analysis.begin, analysis.end_time, analysis.stage) = (0.0, 1.0, None);
+    analysis.step_length = StepLength::Fixed { step: 1.0 };
+    own
+}
+
+fn reduced(model: &Model, of: &Reduction) -> Result<ReducedPart, String> {
+    let own = alone(model, of);
+    let system = System::in_space(&own)?;
+    let plan = Plan::new(&own, &system, 1);
+    let never = AtomicBool::new(false);
+    let state = State {
+        nodes: own.nodes.iter().map(|node| Node::at_rest(node.x)).collect(),
+        history: vec![0.0; system.history],
+        ..State::default()
+    };
+    let loading = Loading::default();
+    let at = Linearized {
+        model: &own,
+        system: &system,
+        plan: &plan,
+        state: &state,
+        loading: &loading,
+        factored: &loading,
+        stop: &never,
+    };
+    let (mut solver, mut assembly) = at.symmetric_solver().map_err(|error| error.to_string())?;
+    let mut pencil = Pencil::new(at, (&mut solver, &mut assembly));
+    let pairs = inner_modes(&mut pencil, of)?;
+    let shapes = Shapes { of, at, columns: columns(&mut pencil, of, &pairs.kept)? };
+    shapes.into_part(&pairs)
+}
+
+/// The modes with a fixed interface.
+struct InnerModes {
+    /// ω² and the motion of the unknowns.
+    kept: Vec<(f64, Vec<f64>)>,
+    /// The frequency of the first mode beyond.
+    next: Option<f64>,
+}
+
+fn inner_modes(pencil: &mut Pencil, of: &Reduction) -> Result<InnerModes, String> {
+    let asked = of.amplitudes.len();
+    let own = pencil.at.unknowns();
+    if asked == 0 || pencil.mass.is_zero() {
+        return Ok(InnerModes { kept: Vec::new(), next: None });
+    }
+    let with_mass = (0..own).filter(|&row| pencil.mass.row(row).any(|(_, mass)| mass != 0.0)).count();
+    let count = (asked + 1).min(with_mass);
+    let mut kept = natural_pairs(pencil, ModeExtent::Count(count)).map_err(|fault| words(&fault))?;
+    let frequency = |square: f64| square.max(0.0).sqrt() / TAU;
+    let within = kept.iter().take(asked).filter(|(square, _)| of.up_to.is_none_or(|most| frequency(*square) <= most));
+    let within = within.count();
+    let next = kept.get(within).map(|(square, _)| frequency(*square));
+    kept.truncate(within);
+    Ok(InnerModes { kept, next })
+}
+
+/// The fault of the part with its interface held, in words.
+fn words(fault: &ModesFault) -> String {
+    match fault {
+        ModesFault::Singular { label, direction } => {
+            format!(
+                "with its interface held, nothing resists at `{label}` in direction {direction}. Support the part there, or leave `reduced` out"
+            )
+        }
+        fault => fault.to_string(),
+    }
+}
+
+/// The motions of all nodes by a unit of each degree of freedom of the superelement.
+fn columns(pencil: &mut Pencil, of: &Reduction, modes: &[(f64, Vec<f64>)]) -> Result<Vec<Vec<Vec6>>, String> {
+    let at = pencil.at;
+    let mut row_of = vec![[None; 6]; at.model.nodes.len()];
+    at.plan.dofs.nodal_dofs().iter().enumerate().for_each(|(row, &(node, dof))| row_of[node][dof] = Some(row));
+    match pencil.factor(0.0) {
+        Ok(0) => {}
+        Ok(_) => return Err("with its interface held, it is unstable at t = 0".to_owned()),
+        Err(row) => return Err(words(&pencil.singular(row))),
+    }
+    let mut statics = vec![vec![0.0; at.unknowns()]; 6 * of.interface.len()];
+    let moved = |nodes: &[Node], statics: &[Vec<f64>]| -> Vec<Vec<Vec6>> {
+        let of_unit = |(k, x): (usize, &Vec<f64>)| {
+            let mut motions = at.motions(nodes, x);
+            motions[of.interface[k / 6]][k % 6] = 1.0;
+            motions
+        };
+        statics.iter().enumerate().map(of_unit).collect()
+    };
+    // The second solution removes the rounding of the first: rigid motions, and axial forces beside bending, need its digits.
+    for _ in 0..2 {
+        let columns = moved(&pencil.nodes, &statics);
+        let mut forces = vec![vec![0.0; at.unknowns()]; columns.len()];
+        each_element(&at, &pencil.nodes, |nodes, d, K| {
+            for (column, forces) in columns.iter().zip(&mut forces) {
+                subtract_forces((nodes, d, K), column, &row_of, forces);
+            }
+        });
+        pencil.solve_all(&mut forces);
+        statics.iter_mut().flatten().zip(forces.iter().flatten()).for_each(|(sum, x)| *sum += x);
+    }
+    let statics = moved(&pencil.nodes, &statics);
+    let dynamics = modes.iter().map(|(_, x)| at.motions(&pencil.nodes, x));
+    Ok(statics.into_iter().chain(dynamics).collect())
+}
+
+/// Subtracts the forces of an element in a small motion of its nodes from those on the unknowns.
+fn subtract_forces(
+    (nodes, d, K): (&[usize], usize, &[f64]),
+    motions: &[Vec6],
+    row_of: &[[Option<usize>; 6]],
+    forces: &mut [f64],
+) {
+    let width = d * nodes.len();
+    for (i, row) in (0..width).filter_map(|i| Some((i, row_of[nodes[i / d]][i % d]?))) {
+        let force: f64 = (0..width).map(|j| K[i * width + j] * motions[nodes[j / d]][j % d]).sum();
+        forces[row] -= force;
+    }
+}
+
+/// Calls `visit` with the nodes of each element, its degrees of freedom per node and its stiffness.
+fn each_element(at: &Linearized, nodes: &[Node], mut visit: impl FnMut(&[usize], usize, &[f64])) {
+    let now = Configuration { nodes, history: &at.state.history, dt: 0.0, previous: None };
+    let mut K = Vec::new();
+    for group in &at.system.groups {
+        let (block, own) = (&group.block, &group.configuration(&now));
+        for e in 0..block.len() {
+            let of = block.nodes(e);
+            K.clear();
+            K.resize((block.dofs() * of.len()).pow(2), 0.0);
+            block.tangent(e, own, 0.0, Moduli::Elastic, &mut K);
+            visit(of, block.dofs(), &K);
+        }
+    }
+}
+
+/// The shapes of a part.
+struct Shapes<'a> {
+    of: &'a Reduction,
+    at: Linearized<'a>,
+    columns: Vec<Vec<Vec6>>,
+}
+
+impl Shapes<'_> {
+    fn into_part(mut self, modes: &InnerModes) -> Result<ReducedPart, String> {
+        let (of, placed) = (self.of, 6 * self.of.interface.len());
+        let mut mass = self.mass();
+        let total = (0..3).map(|axis| self.total(&mass, axis)).sum::<f64>() / 3.0;
+        // Amplitudes are as large as displacements that have their energy.
+        for column in placed..self.columns.len() {
+            let scale = (total / mass[(column, column)]).sqrt();
+            self.columns[column].iter_mut().for_each(|motion| *motion *= scale);
+            mass.row_mut(column).scale_mut(scale);
+            mass.column_mut(column).scale_mut(scale);
+        }
+        let mut stiffness = self.stiffness();
+        for (mode, (square, _)) in modes.kept.iter().enumerate() {
+            let k = placed + mode;
+            stiffness.row_mut(k).fill(0.0);
+            stiffness.column_mut(k).fill(0.0);
+            stiffness[(k, k)] = square * mass[(k, k)];
+        }
+        if of.interface.len() == 1 {
+            // One node moves the part rigidly: what is left is rounding.
+            stiffness.view_mut((0, 0), (placed, placed)).fill(0.0);
+        }
+        let has_mass = total > 0.0;
+        let x: Vec<Vec3> = of.interface.iter().map(|&node| self.at.model.nodes[node].x).collect();
+        let made = SuperelementMatrices { stiffness, mass: has_mass.then_some(mass), damping: None };
+        let (made, ..) = settle(made, &x, true)
+            .map_err(|wrong| format!("{}, by rounding. Take fewer elements, or leave `reduced` out", wrong.message))?;
+        let entries = |matrix: &DMatrix<f64>| Arc::from(matrix.as_slice());
+        let amplitudes = &of.amplitudes[..modes.kept.len()];
+        let matrices = SuperelementData {
+            nodes: of.interface.iter().chain(amplitudes).copied().collect(),
+            interface: of.interface.len(),
+            turns: true,
+            stiffness: entries(&made.stiffness),
+            mass: made.mass.as_ref().map_or_else(|| Arc::from([]), entries),
+            damping: Arc::from([]),
+        };
+        let rows = of.inner.iter().flat_map(|&node| (0..6).map(move |dof| (node, dof)));
+        let shapes = rows.flat_map(|(node, dof)| self.columns.iter().map(move |column| column[node][dof])).collect();
+        let frequencies = modes.kept.iter().map(|(square, _)| square.max(0.0).sqrt() / TAU).collect();
+        Ok(ReducedPart { matrices, shapes, frequencies, next: modes.next, replaced: self.at.unknowns() })
+    }
+
+    /// The mass that moves along an axis.
+    fn total(&self, mass: &DMatrix<f64>, axis: usize) -> f64 {
+        let along = || (0..self.of.interface.len()).map(|i| 6 * i + axis);
+        along().flat_map(|row| along().map(move |column| (row, column))).map(|at| mass[at]).sum()
+    }
+
+    /// Φᵀ K Φ.
+    fn stiffness(&self) -> DMatrix<f64> {
+        let size = self.columns.len();
+        let mut sum = DMatrix::zeros(size, size);
+        each_element(&self.at, &self.at.nodes_at_rest(), |nodes, d, K| {
+            let width = d * nodes.len();
+            let own = DMatrix::from_fn(width, size, |row, column| self.columns[column][nodes[row / d]][row % d]);
+            let K = DMatrix::from_row_slice(width, width, K);
+            sum += own.tr_mul(&(K * &own));
+        });
+        sum
+    }
+
+    /// Φᵀ M Φ.
+    fn mass(&self) -> DMatrix<f64> {
+        let (at, size) = (&self.at, self.columns.len());
+        let nodes = at.nodes_at_rest();
+        let mut forces = Forces::new(at.system, nodes.len());
+        let mut mass = DMatrix::zeros(size, size);
+        for (k, column) in self.columns.iter().enumerate() {
+            at.system.apply_mass(&nodes, &mut column.clone(), &mut forces);
+            for (row, other) in self.columns.iter().enumerate() {
+                let of_node =
+                    |&node: &usize| other[node].iter().zip(&forces.on_nodes[node]).map(|(q, f)| q * f).sum::<f64>();
+                mass[(row, k)] = self.of.interface.iter().chain(&self.of.inner).map(of_node).sum();
+            }
+        }
+        mass
+    }
+}

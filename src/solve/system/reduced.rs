@@ -1,0 +1,81 @@
+//! Reduced parts in the equation of motion: a superelement acts in place of the elements, whose nodes follow from it.
+
+use super::group::{Group, GroupBlock};
+use super::parts::{NumberedBlock, Setting, assembled};
+use base::math::{Vec3, Vec6};
+use mechanics::elements::Force;
+use mechanics::elements::superelement::{FloatingElement, InnerNodes};
+use mechanics::state::Node;
+use model::{Model, Reduction};
+use std::sync::Arc;
+
+/// The nodes inside of a reduced part, with the superelement that they follow.
+#[derive(Clone)]
+pub struct FollowingNodes {
+    element: Arc<FloatingElement>,
+    inner: InnerNodes,
+    /// The first of the parts, by its index in [`Model::parts`].
+    pub part: usize,
+}
+
+impl FollowingNodes {
+    /// The inner nodes of a reduced part; `None` before its matrices have been computed.
+    pub fn new(model: &Model, of: &Reduction, x: &[Vec3]) -> Option<FollowingNodes> {
+        let made = of.made.as_ref()?;
+        let element = FloatingElement::new(made.matrices.clone(), x, 0.0);
+        let inner = InnerNodes::new(&element, &of.inner, x, made.shapes.clone());
+        debug_assert!(of.parts.iter().all(|&part| part < model.parts.len()));
+        Some(FollowingNodes { element: Arc::new(element), inner, part: of.parts[0] })
+    }
+
+    /// The nodes.
+    pub fn nodes(&self) -> &[usize] {
+        self.inner.nodes()
+    }
+
+    /// Writes their motion from that of the superelement.
+    pub fn recover(&self, nodes: &mut [Node]) {
+        self.element.recover(&self.inner, nodes);
+    }
+
+    /// Writes their small motions from those of the superelement.
+    pub fn carry(&self, nodes: &[Node], motions: &mut [Vec6]) {
+        self.element.carry(&self.inner, nodes, motions);
+    }
+
+    /// Moves forces on them to the superelement.
+    pub fn transfer(&self, nodes: &[Node], F: &mut [Force]) {
+        self.element.transfer(&self.inner, nodes, F);
+    }
+
+    /// The largest rotation of one of them in the frame, in radians.
+    pub fn rotation(&self, nodes: &[Node]) -> f64 {
+        self.element.inner_rotation(&self.inner, nodes)
+    }
+}
+
+/// The superelement of a reduced part, with Rayleigh's β; `None` before its matrices have been computed.
+pub fn element(model: &Model, of: &Reduction, x: &[Vec3], beta: f64) -> Option<FloatingElement> {
+    debug_assert!(model.nodes.len() == x.len());
+    Some(FloatingElement::new(of.made.as_ref()?.matrices.clone(), x, beta))
+}
+
+/// The elements of reduced parts, which give results and exert no forces.
+pub fn resting_groups(model: &Model, x: &[Vec3]) -> Vec<Group> {
+    let setting = Setting { model, x, plane: None };
+    let mut parts: Vec<usize> = model.reductions.iter().flat_map(|of| &of.parts).copied().collect();
+    parts.sort_unstable();
+    let blocks = parts.into_iter().flat_map(|part| {
+        let made = assembled(&model.parts[part]).blocks(&setting);
+        made.into_iter().filter(|(block, _)| !block.is_empty()).map(move |made| (part, made))
+    });
+    let group = |(part, (block, first)): (usize, NumberedBlock)| Group {
+        block: GroupBlock::Elements(block),
+        kind: model.parts[part].kind(),
+        part,
+        first,
+        history: 0..0,
+        reduces: false,
+    };
+    blocks.map(group).collect()
+}
