@@ -1498,6 +1498,20 @@ fn linear_statics() {
 }
 
 #[test]
+fn accuracy() {
+    let asked = |keys: &str| portal(&[("end_time = 0.3\ntime_step = 1e-4", keys)]);
+    assert_snapshot!("accuracy_and_time_step", asked("end_time = 0.3\ntime_step = 1e-4\naccuracy = 1e-3"));
+    assert_snapshot!("accuracy_above_1", asked("end_time = 0.3\naccuracy = 2.0"));
+    assert_snapshot!("accuracy_below_tolerance", asked("end_time = 0.3\naccuracy = 1e-3\nerror_tolerance = 1e-2"));
+    let central = "end_time = 0.3\naccuracy = 1e-3\n[integrator]\nscheme = \"central-difference\"";
+    assert_snapshot!("accuracy_and_stable_steps", asked(central));
+    let kind = |keys: &str| portal(&[("kind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4", keys)]);
+    assert_snapshot!("accuracy_of_modes", kind("kind = \"modal\"\naccuracy = 1e-3"));
+    let path = "kind = \"static\"\ncontrol = \"arc-length\"\nend_time = 1.0\ntime_step = 0.1\naccuracy = 1e-3";
+    assert_snapshot!("accuracy_of_a_path", kind(path));
+}
+
+#[test]
 fn modes() {
     let asked = |keys: &str| portal(&[("kind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4", keys)]);
     assert_snapshot!("modes_and_up_to", asked("kind = \"modal\"\nmodes = 3\nup_to = 50.0"));

@@ -3,13 +3,14 @@
 use base::names::nearest;
 
 /// The commands, by their names on the command line.
-pub const COMMANDS: [&str; 12] = [
+pub const COMMANDS: [&str; 13] = [
     "run",
     "check",
     "import",
     "compare",
     "report",
     "study",
+    "recommend",
     "sweep",
     "summary",
     "init",

@@ -1,7 +1,7 @@
 //! `run --mesh-error`: the error of the mesh, estimated by another run with a coarser one.
 
 use base::diagnostic::Source;
-use model::{self, Model};
+use model::{self, Cadence, Model};
 use results::error_bars::ErrorBars;
 use results::expect::Expectations;
 use results::result_json::ReportedMesh;
@@ -9,10 +9,13 @@ use results::wanted;
 use solve::modes::reduce;
 use solve::plan::Plan;
 use solve::system::System;
-use solve::{Frame, Observer, Outcome, Run, StepError};
+use solve::{Counts, Frame, Observer, Outcome, Run, StepError};
 use std::io;
 use std::sync::atomic::AtomicBool;
 use study::{CoarserMesh, coarser};
+
+/// Largest ratio of the errors of two meshes that is believed.
+const MOST_APART: f64 = 30.0;
 
 /// The receivers of the error of the mesh.
 pub struct Judged<'j> {
@@ -22,7 +25,7 @@ pub struct Judged<'j> {
     pub bars: &'j mut ErrorBars,
 }
 
-/// Makes the other run, and passes its estimate to expectations and tables.
+/// Makes the other run, and passes its estimate to expectations and tables. The coarser mesh may be chosen already, with the ratio of the errors.
 ///
 /// # Errors
 /// The reason why the error is not known, in a sentence.
@@ -30,6 +33,7 @@ pub fn tell_mesh_error(
     source: &Source,
     model: &Model,
     (steps, threads, stop): (Option<StepError>, usize, &AtomicBool),
+    chosen: Option<CoarserMesh>,
     judged: Judged,
 ) -> Result<ReportedMesh, String> {
     let unknown = |why: &str| format!("the error of the mesh is not known: {why}");
@@ -40,39 +44,76 @@ pub fn tell_mesh_error(
     if !model.parts.iter().any(|part| part.kind().is_deformable()) {
         return Err(unknown("there is none, for nothing deforms"));
     }
-    let CoarserMesh { sets, apart, unchanged } = coarser(&deck, model);
+    let CoarserMesh { sets, mut apart, unchanged, coarsest } = chosen.unwrap_or_else(|| coarser(&deck, model));
     if sets.is_empty() {
         let why = "no part can have fewer elements, or a lower degree, than it has";
         return Err(unknown(&if unchanged.is_empty() { why.to_owned() } else { of_file(&unchanged) }));
     }
-    let all: Vec<String> = source.sets.iter().map(|(_, set)| set).chain(&sets).cloned().collect();
-    let source = Source::new(source.path.clone(), source.text.clone(), &all);
-    let (Some(mut theirs), _) = model::read(&source) else {
-        return Err(unknown(&format!("the deck is not valid with {}", sets.join(", "))));
-    };
-    if reduce(&mut [&mut theirs]).is_err() {
-        return Err(unknown("a reduced part has no matrices with another mesh"));
-    }
-    let system = System::new(&theirs).map_err(|error| unknown(&error))?;
-    let plan = Plan::new(&theirs, &system, threads);
-    theirs.output.cadence = model.output.cadence;
-    let mut run =
-        Run::new(&theirs, &system, &plan, wanted(&theirs).where_due(), stop).map_err(|e| unknown(&e.to_string()))?;
     let times = judged.bars.times_for_mesh().into_iter().chain(judged.expectations.times_for_mesh()).collect();
-    let mut watchers = Coarser { expectations: Expectations::new(&theirs), bars: ErrorBars::new(&theirs), judged };
-    match run.rehearse(times, steps, &mut watchers) {
-        Outcome::Done => {}
-        Outcome::Failed { time, failure } => {
-            return Err(unknown(&format!("the run with the coarser mesh ends at t = {time}: {failure}")));
+    let mut other =
+        OtherMesh { source, cadence: model.output.cadence, steps, threads, stop, times, is_coarsest: false, judged };
+    let Counts { mut steps, mut iterations, mut factorizations, .. } = other.run(&sets).map_err(|why| unknown(&why))?;
+    if !coarsest.is_empty() {
+        other.is_coarsest = true;
+        // Without this run the least ratio is assumed.
+        if let Ok(counts) = other.run(&coarsest) {
+            apart = other.judged.bars.measured_ratio().unwrap_or(apart).clamp(apart, MOST_APART);
+            steps += counts.steps;
+            iterations += counts.iterations;
+            factorizations += counts.factorizations;
         }
-        Outcome::Stopped { .. } => return Err(unknown("the run with the coarser mesh was stopped by a signal")),
-        Outcome::Io(error) => return Err(unknown(&error.to_string())),
     }
-    watchers.judged.expectations.on_coarser_mesh(apart);
-    watchers.judged.bars.on_coarser_mesh(apart);
-    let counts = run.counts();
-    let (steps, iterations, factorizations) = (counts.steps, counts.iterations, counts.factorizations);
+    other.judged.expectations.on_coarser_mesh(apart);
+    other.judged.bars.on_coarser_mesh(apart);
     Ok(ReportedMesh { sets, apart, unchanged, steps, iterations, factorizations })
+}
+
+/// Runs with other meshes that are compared with the run of the deck.
+struct OtherMesh<'r> {
+    source: &'r Source,
+    cadence: Cadence,
+    /// The error of the steps that all runs follow.
+    steps: Option<StepError>,
+    threads: usize,
+    stop: &'r AtomicBool,
+    times: Vec<f64>,
+    /// True if the mesh is coarser than that of another such run.
+    is_coarsest: bool,
+    judged: Judged<'r>,
+}
+
+impl OtherMesh<'_> {
+    /// Runs the deck with these overrides, and tells its counts.
+    ///
+    /// # Errors
+    /// The reason why there is no such run.
+    fn run(&mut self, sets: &[String]) -> Result<Counts, String> {
+        let source = self.source;
+        let all: Vec<String> = source.sets.iter().map(|(_, set)| set).chain(sets).cloned().collect();
+        let source = Source::new(source.path.clone(), source.text.clone(), &all);
+        let (Some(mut theirs), _) = model::read(&source) else {
+            return Err(format!("the deck is not valid with {}", sets.join(", ")));
+        };
+        if reduce(&mut [&mut theirs]).is_err() {
+            return Err("a reduced part has no matrices with another mesh".to_owned());
+        }
+        let system = System::new(&theirs)?;
+        let plan = Plan::new(&theirs, &system, self.threads);
+        theirs.output.cadence = self.cadence;
+        let run = Run::new(&theirs, &system, &plan, wanted(&theirs).where_due(), self.stop);
+        let mut run = run.map_err(|error| error.to_string())?;
+        let (expectations, bars) = (Expectations::new(&theirs), ErrorBars::new(&theirs));
+        let judged = Judged { expectations: self.judged.expectations, bars: self.judged.bars };
+        let mut watchers = Coarser { expectations, bars, judged, is_coarsest: self.is_coarsest };
+        match run.rehearse(self.times.clone(), self.steps, &mut watchers) {
+            Outcome::Done => Ok(run.counts()),
+            Outcome::Failed { time, failure } => {
+                Err(format!("the run with the coarser mesh ends at t = {time}: {failure}"))
+            }
+            Outcome::Stopped { .. } => Err("the run with the coarser mesh was stopped by a signal".to_owned()),
+            Outcome::Io(error) => Err(error.to_string()),
+        }
+    }
 }
 
 /// Says that parts come from a file.
@@ -88,6 +129,7 @@ struct Coarser<'j> {
     expectations: Expectations,
     bars: ErrorBars,
     judged: Judged<'j>,
+    is_coarsest: bool,
 }
 
 impl Observer for Coarser<'_> {
@@ -96,11 +138,17 @@ impl Observer for Coarser<'_> {
     }
 
     fn begin_comparison(&mut self) {
+        if self.is_coarsest {
+            return;
+        }
         self.judged.expectations.begin_comparison();
         self.judged.bars.begin_comparison();
     }
 
     fn on_comparison(&mut self, frame: &Frame) -> io::Result<()> {
+        if self.is_coarsest {
+            return self.judged.bars.on_coarsest_mesh(&mut self.bars, frame);
+        }
         self.judged.expectations.on_other_mesh(&self.expectations, frame);
         self.judged.bars.on_other_mesh(&mut self.bars, frame)
     }

@@ -1,5 +1,6 @@
 //! The command line: one file per command, and common parts: arguments, exit codes, the console, reading a deck.
 
+mod accuracy;
 mod arguments;
 mod check;
 mod checkpoints;
@@ -27,11 +28,13 @@ mod shell_completions;
 mod signals;
 mod stages;
 mod study;
+mod study_defaults;
 mod summary;
 mod sweep;
 mod verdict;
 mod version;
 mod watchers;
+mod written_deck;
 
 pub use exit::Exit;
 
@@ -96,6 +99,10 @@ enum Command {
     ///
     /// Example: `rdsolve study deck.toml -o deck.study --time-steps 1e-2,5e-3`
     Study(Box<study::StudyArgs>),
+    /// Print the deck with the mesh, contact stiffness and steps that an accuracy needs, found by pilot runs
+    ///
+    /// Example: `rdsolve recommend deck.toml --accuracy 1e-3 > chosen.toml`
+    Recommend(recommend::RecommendArgs),
     /// Run many variants of a deck, here or as one shard of many, and collect numbers of each in one table
     ///
     /// Example: `rdsolve sweep cases.toml -o cases.out --jobs 4`
@@ -173,6 +180,7 @@ pub fn execute(cli: Cli) -> Exit {
         (Some(Command::Compare(args)), _) => compare::compare(&args),
         (Some(Command::Report(args)), _) => report::report(&args),
         (Some(Command::Study(args)), _) => study::study(&args),
+        (Some(Command::Recommend(args)), _) => recommend::recommend(&args),
         (Some(Command::Sweep(args)), _) => sweep::sweep(&args),
         (Some(Command::Summary(args)), _) => summary::summary(&args),
         (Some(Command::Init(args)), _) => init::init(&args),

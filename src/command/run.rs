@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use super::accuracy::{ChosenSettings, settle};
 use super::arguments::{MAX_THREADS, RunArgs};
 use super::checkpoints::{Checkpoints, CheckpointsWanted};
 use super::console::{complain, print, say, show};
@@ -48,19 +49,16 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     if std::env::var_os(LIFELINE).is_some() {
         std::thread::spawn(end_with_input);
     }
-    let mut loaded = load(&args.deck, &args.sets, Vec::new())?;
-    let folder = args.output.clone().unwrap_or_else(|| named_after(&args.deck, "out"));
-    let origin = checkpoint_origin(&loaded, deck_digest(&loaded.source.text), args.mesh_error);
-    let begins = match args.resume {
-        true => resume(&folder, &origin, &loaded.hash)?,
-        false => require_free(&folder, args.overwrite).map(|()| Begins::Anew)?,
-    };
-    let threads = args.threads.map_or_else(available_threads, usize::from);
-    if threads > 1 {
-        // Where the pool is there already, its threads serve: results do not depend on their number.
-        let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
-    }
+    let loaded = load(&args.deck, &args.sets, Vec::new())?;
     let read_s = began.elapsed().as_secs_f64();
+    let folder = args.output.clone().unwrap_or_else(|| named_after(&args.deck, "out"));
+    if !args.resume {
+        require_free(&folder, args.overwrite)?;
+    }
+    let threads = use_threads(args.threads);
+    let (mut loaded, chosen, pilots_s) = settled(loaded, threads, args.quiet)?;
+    let origin = checkpoint_origin(&loaded, deck_digest(&loaded.source.text), args.mesh_error);
+    let begins = if args.resume { resume(&folder, &origin, &loaded.hash)? } else { Begins::Anew };
     let planning = Instant::now();
     if !args.quiet {
         show(&loaded.warnings, &loaded.source);
@@ -84,12 +82,13 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
         marks: true,
         quiet: args.quiet,
         mesh_error: args.mesh_error,
+        chosen: chosen.as_ref(),
         threads,
         stop: &stop,
         began,
-        plan: explained(&loaded, &plan, &system),
+        plan: explained(&loaded, (&plan, &system), chosen.as_ref()),
         sizes: sizes(&loaded, plan.dofs.unknowns(), system.multipliers()),
-        timings: Timings { read_s, plan_s: planning.elapsed().as_secs_f64(), ..Timings::default() },
+        timings: Timings { read_s, pilots_s, plan_s: planning.elapsed().as_secs_f64(), ..Timings::default() },
     };
     let computed = stop_on_signals(&stop).and_then(|()| {
         drop(reading);
@@ -129,8 +128,9 @@ pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<Status
         let errors = problems.iter().filter(|problem| problem.is_error());
         CaseFault::Deck(errors.map(|problem| problem.draw(source, false)).collect::<Vec<_>>().join("\n"))
     };
-    let mut loaded = build(source, sets).map_err(|(problems, source)| faults(&problems, &source))?;
+    let loaded = build(source, sets).map_err(|(problems, source)| faults(&problems, &source))?;
     go_on_unless(stop)?;
+    let (mut loaded, chosen) = settle(loaded, 1).map_err(|(problems, source)| faults(&problems, &source))?;
     refuse_changed(&loaded, files)?;
     for model in std::iter::once(&mut loaded.model).chain(&mut loaded.later) {
         model.output.only.clone_from(only);
@@ -157,10 +157,11 @@ pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<Status
         marks: false,
         quiet: true,
         mesh_error: false,
+        chosen: chosen.as_ref(),
         threads: 1,
         stop,
         began,
-        plan: explained(&loaded, &plan, &system),
+        plan: explained(&loaded, (&plan, &system), chosen.as_ref()),
         sizes: sizes(&loaded, plan.dofs.unknowns(), system.multipliers()),
         timings: Timings { read_s, plan_s: planning.elapsed().as_secs_f64(), ..Timings::default() },
     };
@@ -212,15 +213,40 @@ pub enum CaseFault {
     Stopped,
 }
 
-/// The plan in the lines that `check` prints.
-fn explained(loaded: &Loaded, plan: &Plan, system: &System) -> Vec<String> {
+/// Chooses and shows the settings for the accuracy of a deck, and measures the seconds of the pilot runs.
+fn settled(loaded: Loaded, threads: usize, quiet: bool) -> Result<(Loaded, Option<ChosenSettings>, f64), Exit> {
+    let began = Instant::now();
+    let (loaded, chosen) = settle(loaded, threads).map_err(|(problems, source)| {
+        show(&problems, &source);
+        Exit::DeckInvalid
+    })?;
+    let lines = chosen.iter().filter(|_| !quiet).flat_map(ChosenSettings::lines);
+    lines.for_each(|line| say(&line));
+    let seconds = if chosen.is_some() { began.elapsed().as_secs_f64() } else { 0.0 };
+    Ok((loaded, chosen, seconds))
+}
+
+/// Makes the threads of a run, all cores unless a number is asked for, and returns their number.
+fn use_threads(asked: Option<u8>) -> usize {
+    let threads = asked.map_or_else(available_threads, usize::from);
+    if threads > 1 {
+        // Where the pool is there already, its threads serve: results do not depend on their number.
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+    }
+    threads
+}
+
+/// The plan in the lines that `check` prints, and the chosen settings.
+fn explained(loaded: &Loaded, (plan, system): (&Plan, &System), chosen: Option<&ChosenSettings>) -> Vec<String> {
     let mut text = explain(plan, &loaded.model, system);
     if let (None, Some(scaling)) = (system.mass_scaling(), &loaded.mass_scaling) {
         text.computed.extend(mass_added(scaling));
     }
     text.computed.push(("output", listed(&loaded.model, plan)));
     let stages = loaded.model.analysis.stage.iter().flat_map(|_| stages_in_words(loaded));
-    stages.chain(text.to_string().lines().map(str::to_owned)).collect()
+    let text = text.to_string();
+    let lines = stages.chain(text.lines().map(str::to_owned));
+    lines.chain(chosen.iter().flat_map(|chosen| chosen.lines())).collect()
 }
 
 /// The stages of a deck, a line for each; of a deck without stages that of the whole run.
@@ -251,6 +277,8 @@ struct Job<'a> {
     marks: bool,
     quiet: bool,
     mesh_error: bool,
+    /// The settings that `accuracy` has chosen.
+    chosen: Option<&'a ChosenSettings>,
     threads: usize,
     stop: &'a AtomicBool,
     began: Instant,
@@ -291,16 +319,20 @@ impl Job<'_> {
 
         told.remarks.iter().try_for_each(|remark| watchers.log.say(&format!("note: {remark}")))?;
         let warnings = std::mem::take(&mut told.warnings);
-        let of_run = self.warnings_of(warnings, watchers.files.empty_fields(), mesh.as_ref());
+        let steps = told.step_error.map(step_error);
+        let of_accuracy = self.chosen.map_or(Vec::new(), |chosen| chosen.warnings(steps.as_ref()));
+        let of_files = [watchers.files.empty_fields(), of_accuracy].concat();
+        let of_run = self.warnings_of(warnings, of_files, mesh.as_ref());
         of_run.iter().try_for_each(|warning| watchers.log.warn(warning))?;
         let warnings = self.warnings_of_deck().map(str::to_owned).chain(of_run).collect();
         told.energy.iter().try_for_each(|line| watchers.log.say(line))?;
         let lines = [std::mem::take(&mut watchers.modes), std::mem::take(&mut told.energy)].concat();
         let expectations = watchers.expectations.verdicts();
         let errors = ReportedErrors {
-            step_error: told.step_error.map(step_error),
+            step_error: steps,
             mass_scaling: self.loaded.mass_scaling.as_ref().map(ReportedMasses::from),
             mesh: mesh.and_then(Result::ok),
+            accuracy: self.chosen.map(|chosen| chosen.report.clone()),
             error_bars: watchers.bars.map(ErrorBars::into_bars).unwrap_or_default(),
         };
         error_bars_in_words(&errors.error_bars).iter().try_for_each(|line| watchers.log.say(line))?;
@@ -363,7 +395,7 @@ impl Job<'_> {
     fn watchers(&self, log: Log, resumes: bool) -> io::Result<Watchers> {
         let model = &self.loaded.model;
         // Bars are those of one run from t = 0 on.
-        let tells_errors = (by_error(model) || self.mesh_error) && model.analysis.stage.is_none();
+        let tells_errors = (by_error(model) || self.tells_mesh_error()) && model.analysis.stage.is_none();
         let options = [self.quiet, tells_errors];
         let mut watchers = match resumes {
             true => Watchers::waiting(log, self.folder, model, options),
@@ -400,12 +432,18 @@ impl Job<'_> {
             return Some(Err("the error of the mesh is not known: it is not told of a deck with stages".to_owned()));
         }
         let Watchers { expectations, bars: Some(bars), .. } = watchers else { return None };
-        if !self.mesh_error || !matches!(outcome, Outcome::Done) {
+        if !self.tells_mesh_error() || !matches!(outcome, Outcome::Done) {
             return None;
         }
         let (source, model) = (&self.loaded.source, &self.loaded.model);
         let like = (run.step_error(), self.threads, self.stop);
-        Some(tell_mesh_error(source, model, like, Judged { expectations, bars }))
+        let coarser = self.chosen.and_then(|chosen| chosen.coarser.clone());
+        Some(tell_mesh_error(source, model, like, coarser, Judged { expectations, bars }))
+    }
+
+    /// True where a run with a coarser mesh follows.
+    fn tells_mesh_error(&self) -> bool {
+        self.mesh_error || self.chosen.is_some_and(|chosen| chosen.coarser.is_some())
     }
 
     /// The warnings about the deck. Notes are left out, for they question no result.

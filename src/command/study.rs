@@ -12,8 +12,8 @@ use super::exit::Exit;
 use super::folder::{named_after, require_free};
 use super::load::{Loaded, is_standard_input, load};
 use super::processor::Level;
-use super::recommend;
 use super::signals::{EndAtOnce, stop_on_signals};
+use super::study_defaults;
 use base::diagnostic::{Diagnostic, Source};
 use base::words::{PER_DECADE, rungs};
 use deck::Deck;
@@ -162,7 +162,7 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
     let mut loaded = with_steps(load_one(&args.deck, &sets, names.clone())?)?;
     if let Some(wanted) = args.recommend {
         // The last of the overrides stand for options: what completes them goes before.
-        let defaults = recommend::defaults(&loaded.model, wanted);
+        let defaults = study_defaults::defaults(&loaded.model, wanted);
         sets.splice(args.sets.len()..args.sets.len(), defaults);
         loaded = load(&args.deck, &sets, names)?;
     }

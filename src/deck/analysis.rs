@@ -25,10 +25,14 @@ pub struct Analysis {
     pub end_time: Maybe<f64>,
     /// Length of the time steps, above 0, or "auto": as long as `error_tolerance` allows, with central-
     /// difference as long as is stable. With arc-length control the length of the first step, which sets the
-    /// arc length of the others. Required for "dynamic" and "static", without effect with control = "displacement".
+    /// arc length of the others. Required for "dynamic" without `accuracy` and for "static", without effect with control = "displacement".
     pub time_step: Maybe<NumberOrAuto>,
+    /// Error of the results from time steps, iteration, mesh and contact stiffness together, relative to the largest change of each
+    /// result; between 0 and 1. Pilot runs choose what meets it. Results are displacements of `[output]` nodes and of bodies, rotations of
+    /// bodies, and the quantities of `[[expect]]`. In dynamics it replaces `time_step`; in statics `time_step` is the longest step.
+    pub accuracy: Maybe<f64>,
     /// With time_step = "auto": error of displacements at the end of the run caused by the steps, relative to the largest displacement;
-    /// between 0 and 1. Default: 1e-3.
+    /// between 0 and 1. Default: 1e-3; with `accuracy` its part for the steps.
     pub error_tolerance: Maybe<f64>,
     /// Shortest step, above 0: a step that does not converge is halved, but not below this. Default: time_step
     /// / 2^20; with an automatic step end_time / 10^9.

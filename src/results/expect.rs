@@ -28,7 +28,7 @@ fn answers(at: ExpectAt) -> impl Iterator<Item = &'static Answers> {
 }
 
 /// The answers with a quantity of one thing, and its index among them; `None` if no table has it.
-fn find(at: ExpectAt, quantity: &str) -> Option<(&'static Answers, usize)> {
+pub(super) fn find(at: ExpectAt, quantity: &str) -> Option<(&'static Answers, usize)> {
     answers(at).find_map(|answers| {
         let index = (answers.quantities)(at).iter().position(|name| *name == quantity)?;
         Some((answers, index))

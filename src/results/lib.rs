@@ -22,6 +22,7 @@ pub mod log;
 pub mod low_pass;
 pub mod marks;
 pub mod matrix_market;
+pub mod observed;
 pub mod progress;
 pub mod report;
 pub mod result_json;

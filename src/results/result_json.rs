@@ -164,9 +164,42 @@ pub struct ReportedErrors {
     /// The run with a coarser mesh, which estimates the errors of the mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<ReportedMesh>,
+    /// The settings that `accuracy` has chosen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<ReportedAccuracy>,
     /// The errors of the largest values of all columns.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub error_bars: Vec<ErrorBar>,
+}
+
+/// The settings chosen for `accuracy`, with errors estimated by pilot runs. Errors are relative to the largest change of a result.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct ReportedAccuracy {
+    /// `accuracy` of the deck.
+    pub asked: f64,
+    /// The estimated error by the mesh; `None` where it is not known.
+    pub mesh: Option<f64>,
+    /// The estimated error by contact stiffness left open; `None` where there is none, or it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact: Option<f64>,
+    /// The estimated error by load steps; `None` where steps are automatic, or the load steps make none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load_steps: Option<f64>,
+    /// The part of the error that is left to automatic steps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps: Option<f64>,
+    /// The settings as overrides of the deck.
+    pub settings: Vec<String>,
+    /// Errors that remain, or are not known.
+    pub remarks: Vec<String>,
+    /// Number of pilot runs, ...
+    pub pilot_runs: usize,
+    /// ... their steps, ...
+    pub pilot_steps: usize,
+    /// ... iterations ...
+    pub pilot_iterations: usize,
+    /// ... and factorizations.
+    pub pilot_factorizations: usize,
 }
 
 /// The error of automatic steps, relative to the largest motion.
@@ -265,6 +298,9 @@ pub struct ReportedMesh {
 pub struct Timings {
     /// Reading the deck and its mesh, and building the model.
     pub read_s: f64,
+    /// Pilot runs for `accuracy`.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub pilots_s: f64,
     /// Making the plan, the system of equations and the solver.
     pub plan_s: f64,
     /// The time stepping alone.
@@ -273,6 +309,11 @@ pub struct Timings {
     pub write_s: f64,
     /// From the start of the program to the writing of this object.
     pub total_s: f64,
+}
+
+/// True for no time at all.
+fn is_zero(seconds: &f64) -> bool {
+    *seconds == 0.0
 }
 
 impl RunResult {

@@ -198,6 +198,7 @@ fn analysis(model: &Model, deck: &Deck) -> String {
         control: _,
         end_time: _,
         time_step: _,
+        accuracy: _,
         error_tolerance: _,
         stop: _,
         increment: _,

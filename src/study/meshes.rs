@@ -47,6 +47,7 @@ fn multiplied(elements: &OneOrMany<u64>, factor: f64) -> Option<String> {
 }
 
 /// A coarser mesh of a deck, for the error of its mesh.
+#[derive(Debug, Clone)]
 pub struct CoarserMesh {
     /// The overrides for the coarser mesh; none if no part can be coarser.
     pub sets: Vec<String>,
@@ -54,15 +55,18 @@ pub struct CoarserMesh {
     pub apart: f64,
     /// The names of deformable parts with unchanged mesh.
     pub unchanged: Vec<String>,
+    /// The overrides for a mesh of still a degree less, which measures the factor; none if elements are halved, or degrees are too low.
+    pub coarsest: Vec<String>,
 }
 
 /// Half as many elements in each part, or a degree less of a beam of one element.
 pub fn coarser(deck: &Deck, model: &Model) -> CoarserMesh {
     /// The part of the order of convergence that is reached; of 300 columns of 17 runs 94 % were then within the bound.
     const SLOPE: f64 = 0.8;
-    /// The factor between the errors of degrees p and p - 1, which a few elements hardly show.
+    /// The least factor between the errors of degrees p and p - 1.
     const OF_A_DEGREE: f64 = 4.0;
-    let mut mesh = CoarserMesh { sets: Vec::new(), apart: f64::INFINITY, unchanged: Vec::new() };
+    let (sets, unchanged, coarsest) = (Vec::new(), Vec::new(), Vec::new());
+    let mut mesh = CoarserMesh { sets, apart: f64::INFINITY, unchanged, coarsest };
     for part in deck.parts().filter(|part| !part.is_rigid()) {
         let (path, label) = (part.table_path(), part.label());
         let order = part.table.order();
@@ -86,11 +90,15 @@ pub fn coarser(deck: &Deck, model: &Model) -> CoarserMesh {
                 Some(order) => {
                     mesh.apart = mesh.apart.min(OF_A_DEGREE);
                     mesh.sets.push(format!("{path}.order={}", order - 1));
+                    mesh.coarsest.extend((order > 2).then(|| format!("{path}.order={}", order - 2)));
                 }
                 None if part.table.group().is_some() || elements.is_some() => mesh.unchanged.push(label),
                 None => {}
             },
         }
+    }
+    if mesh.coarsest.len() < mesh.sets.len() {
+        mesh.coarsest.clear();
     }
     mesh
 }

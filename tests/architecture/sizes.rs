@@ -17,7 +17,7 @@ const LINES: usize = 60;
 /// Plain data: what a deck says or means, and what a step writes to.
 const WIDE: Known = &[
     ("deck/amplitudes.rs: Amplitude", 19),
-    ("deck/analysis.rs: Analysis", 19),
+    ("deck/analysis.rs: Analysis", 20),
     ("deck/beams.rs: Beam", 22),
     ("deck/expect.rs: Expect", 16),
     ("deck/joints.rs: Joint", 25),

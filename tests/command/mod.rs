@@ -1,5 +1,6 @@
 //! The program from outside: arguments in, exit codes out.
 
+mod accuracy;
 mod around_a_run;
 mod check_numbers;
 mod cli;

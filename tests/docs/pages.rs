@@ -146,7 +146,7 @@ fn docs_show_commands_that_exist() {
 #[test]
 fn docs_name_options_that_exist() {
     let commands =
-        ["run", "check", "import", "report", "compare", "study", "sweep", "summary", "schema", "init", "completions"];
+        ["run", "check", "import", "report", "compare", "study", "recommend", "sweep", "summary", "schema", "init", "completions"];
     let help = |command: &&str| rdsolve(&[command, "--help"]).output().unwrap().stdout;
     let known: Vec<u8> = commands.iter().flat_map(help).collect();
     let known = String::from_utf8(known).unwrap();

@@ -47,6 +47,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
             is_linear: false,
             begin: 0.0,
             end_time,
+            accuracy: None,
             stage: None,
             step_length: StepLength::Fixed { step: time_step },
             least_step: time_step * 1e-3,

@@ -63,6 +63,7 @@ pub fn model() -> Model {
             is_linear: false,
             begin: 0.0,
             end_time: 1.0,
+            accuracy: None,
             stage: None,
             step_length: StepLength::Fixed { step: 0.1 },
             least_step: 1e-6,

@@ -23,6 +23,8 @@ pub struct Analysis {
     pub stage: Option<RunStage>,
     /// The way steps get their lengths.
     pub step_length: StepLength,
+    /// The requested error of the results; `None` where the deck gives mesh and steps.
+    pub accuracy: Option<f64>,
     /// Least length of a step after cutbacks.
     pub least_step: f64,
     /// True where the unknowns omit out-of-plane motion without excitation.

@@ -54,6 +54,7 @@ pub fn linear<'d>(
         begin: 0.0,
         end_time,
         stage: None,
+        accuracy: None,
         step_length: StepLength::Fixed { step },
         least_step: step,
         plane,

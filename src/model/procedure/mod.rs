@@ -1,5 +1,6 @@
 //! `[analysis]`, `[integrator]`, `[iteration]`.
 
+pub mod accuracy;
 pub mod choose_scheme;
 pub mod control;
 pub mod displacement_targets;
@@ -12,14 +13,15 @@ pub mod scaled_masses;
 pub mod stops;
 pub mod study;
 
+use crate::data::FIRST_STEP;
 use crate::data::{Analysis, AnalysisKind, Gyroscopic, Iteration, MassKind, Method, Part, StepLength, Update};
-use crate::data::{ERROR_TOLERANCE, FIRST_STEP};
+use crate::procedure::accuracy::{accuracy, check_error_control, refuse_step, refuse_without_steps, tolerance};
 use crate::procedure::linear::linear;
 use crate::procedure::modes::modes;
 use crate::procedure::scaled_masses::scales_masses;
 use crate::report::{Owner, Report};
 use crate::stages::CurrentStage;
-use crate::values::{chosen, keys, span};
+use crate::values::{chosen, keys};
 use base::diagnostic::{At, Diagnostic, Span};
 use base::names::short;
 use deck::Deck;
@@ -34,8 +36,6 @@ use std::sync::Arc;
 const HALVINGS: i32 = 20;
 /// Largest number of steps; more are taken for a typing error.
 const MOST_STEPS: f64 = 1e9;
-/// Expected number of steps of a run whose error is to be τ, times τ^(1/p), with p the order of the scheme.
-const STEPS: f64 = 20.0;
 
 /// The analysis and its solution, before the supports say how a path is followed.
 pub struct Procedure {
@@ -67,20 +67,23 @@ pub fn analysis<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, report: &mu
         }
     };
     let scheme = deck.integrator.as_ref().map_or_else(default_scheme, |integrator| self::scheme(integrator, report));
-    if let (StepLength::ErrorControlled { tolerance, .. }, Some(table)) = (&analysis.step_length, &deck.analysis) {
-        check_error_control(*tolerance, table, &*scheme, report);
+    if let Some(table) = &deck.analysis {
+        check_error_control(&analysis.step_length, table, &*scheme, report);
     }
     Procedure { analysis, scheme, iteration: iteration(deck.iteration.as_ref(), report) }
 }
 
 fn times<'d>(analysis: &'d words::Analysis, owner: Owner<'d>, report: &mut Report<'d>) -> Analysis {
     let word = report.require(&owner, "kind", &analysis.kind).map(|kind| kind.value).unwrap_or_default();
-    if let Some(analysis) = modes(analysis, owner.span, word, report) {
-        return analysis;
+    if let Some(read) = modes(analysis, owner.span, word, report) {
+        refuse_without_steps(analysis, "an analysis without time steps: refine `elements` and compare", report);
+        return read;
     }
-    if let Some(analysis) = linear(analysis, &owner, word, report) {
-        return analysis;
+    if let Some(read) = linear(analysis, &owner, word, report) {
+        refuse_without_steps(analysis, "a linear analysis: `run --mesh-error` estimates the error of its mesh", report);
+        return read;
     }
+    let accuracy = accuracy(analysis, report);
     let is_static = word == words::AnalysisKind::Static;
     let is_moved = is_static && analysis.control.as_ref().is_some_and(|at| at.value == words::Control::Displacement);
     let end_time = match &analysis.end_time {
@@ -89,7 +92,7 @@ fn times<'d>(analysis: &'d words::Analysis, owner: Owner<'d>, report: &mut Repor
     };
     let (time_step, error_tolerance) = match is_moved {
         true => (end_time, None),
-        false => time_step(&owner, analysis, is_static, report),
+        false => time_step(&owner, analysis, (is_static, accuracy), report),
     };
     let least_step = report.positive("least_step", &analysis.least_step);
     if let (Some(end), Some(step), Some(at)) = (end_time, time_step, &analysis.time_step)
@@ -120,7 +123,7 @@ fn times<'d>(analysis: &'d words::Analysis, owner: Owner<'d>, report: &mut Repor
     }
     let kind = if is_static { AnalysisKind::Static } else { AnalysisKind::Dynamic };
     let plane = analysis.plane.as_ref().is_none_or(|plane| plane.value == words::Plane::Auto);
-    let run = Analysis { plane, ..unread(kind, end_time) };
+    let run = Analysis { plane, accuracy, ..unread(kind, end_time) };
     let (step_length, least) = match (error_tolerance, time_step) {
         (Some(tolerance), _) => {
             (StepLength::ErrorControlled { tolerance, first: FIRST_STEP * run.end_time }, run.end_time / MOST_STEPS)
@@ -135,21 +138,37 @@ fn times<'d>(analysis: &'d words::Analysis, owner: Owner<'d>, report: &mut Repor
 /// not known.
 fn unread(kind: AnalysisKind, end_time: Option<f64>) -> Analysis {
     let (end_time, step_length) = (end_time.unwrap_or(f64::MAX), StepLength::Fixed { step: 1.0 });
-    Analysis { kind, is_linear: false, begin: 0.0, end_time, stage: None, step_length, least_step: 1.0, plane: true }
+    let (stage, accuracy) = (None, None);
+    Analysis {
+        kind,
+        is_linear: false,
+        begin: 0.0,
+        end_time,
+        stage,
+        step_length,
+        accuracy,
+        least_step: 1.0,
+        plane: true,
+    }
 }
 
 /// The length of the steps, or the error that it follows.
 fn time_step<'d>(
     owner: &Owner,
     analysis: &'d words::Analysis,
-    is_static: bool,
+    (is_static, accuracy): (bool, Option<f64>),
     report: &mut Report<'d>,
 ) -> (Option<f64>, Option<f64>) {
+    if analysis.time_step.is_none() && accuracy.is_some() && !is_static {
+        return (None, Some(tolerance(analysis, accuracy, report)));
+    }
     let Some(at) = report.require(owner, "time_step", &analysis.time_step) else { return (None, None) };
-    let tolerance = &analysis.error_tolerance;
     match at.value {
         NumberOrAuto::Number(step) => {
-            report.reject_unused("a `time_step` that is a number", &[("error_tolerance", span(tolerance))]);
+            match is_static {
+                true => report.reject_unused("a `time_step` that is a number", &keys!(analysis; error_tolerance)),
+                false => refuse_step(analysis, &at.span, report),
+            }
             (report.positive("time_step", &Some(At { value: step, span: at.span.clone() })), None)
         }
         NumberOrAuto::Auto if is_static => {
@@ -157,41 +176,7 @@ fn time_step<'d>(
             report.error_with::<()>(&at.span, "`time_step` is \"auto\" in a static analysis", hint);
             (None, None)
         }
-        NumberOrAuto::Auto => {
-            if let Some(at) = tolerance
-                && !(at.value > 0.0 && at.value < 1.0)
-            {
-                let hint = "it is relative to the largest displacement";
-                report.error_with::<()>(&at.span, "`error_tolerance` must lie between 0 and 1", hint);
-            }
-            (None, Some(tolerance.as_ref().map_or(ERROR_TOLERANCE, |at| at.value)))
-        }
-    }
-}
-
-/// Checks that an error can be controlled: its estimate holds for schemes of second order, and rounding bounds the
-/// tolerance from below.
-fn check_error_control(tolerance: f64, table: &words::Analysis, scheme: &dyn Scheme, report: &mut Report) {
-    if scheme.order() < 2
-        && let Some(at) = &table.time_step
-    {
-        let message = format!("`time_step` is \"auto\", but {} is of first order", scheme.in_words());
-        report.error_with::<()>(&at.span, message, "take a scheme of second order, such as \"generalized-alpha\"");
-    }
-    if let Some(at) = &table.error_tolerance {
-        can_be_kept("error_tolerance", tolerance, scheme, &at.span, report);
-    }
-}
-
-/// Warns of a tolerance below rounding. Each step rounds, and shorter ones are more: beyond ε n = τ, n = 20/τ^(1/p),
-/// the sum may exceed the tolerance. (A mass on a spring ends at 7e-11, whatever is asked of a scheme of second order.)
-pub fn can_be_kept(key: &str, tolerance: f64, scheme: &dyn Scheme, place: &Span, report: &mut Report) {
-    let order = scheme.order() as f64;
-    let least = (STEPS * f64::EPSILON).powf(order / (order + 1.0));
-    if tolerance > 0.0 && tolerance < least {
-        let message = format!("`{key}` is below the rounding error of numbers with \"{}\"", scheme.word());
-        let hint = format!("give {least:.0e} or more; rounding of so many steps may add up to that");
-        report.warn(place, message, hint);
+        NumberOrAuto::Auto => (None, Some(tolerance(analysis, accuracy, report))),
     }
 }
 
@@ -238,10 +223,12 @@ pub fn check_explicit(deck: &Deck, analysis: &Analysis, scheme: &dyn Scheme, par
         let hint = "leave it out with explicit schemes: slender beams deform little in shear";
         report.warn(&shear.span, "`shear = false` makes the critical time step up to 100 times shorter", hint);
     }
-    let tolerance = deck.analysis.as_ref().and_then(|analysis| analysis.error_tolerance.as_ref());
-    if let (Stepping::Verlet, Some(tolerance)) = (scheme.stepping(), tolerance) {
-        let message = format!("`error_tolerance` does not apply to the scheme \"{}\"", scheme.word());
-        report.error_with::<()>(&tolerance.span, message, "its steps are as long as is stable");
+    let errors = deck.analysis.iter().flat_map(|analysis| keys!(analysis; error_tolerance, accuracy));
+    for (key, place) in errors.filter(|_| matches!(scheme.stepping(), Stepping::Verlet)) {
+        if let Some(place) = place {
+            let message = format!("`{key}` does not apply to the scheme \"{}\"", scheme.word());
+            report.error_with::<()>(place, message, "its steps are as long as is stable");
+        }
     }
 }
 

@@ -73,6 +73,7 @@ pub fn modes<'d>(
         begin: 0.0,
         end_time: END,
         stage: None,
+        accuracy: None,
         step_length,
         least_step: LEAST_STEP,
         plane,

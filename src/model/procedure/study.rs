@@ -3,8 +3,9 @@
 pub use crate::data::{Choice, Quantity, Study};
 use crate::data::{Method, Node};
 use crate::places::place::Place;
+use crate::procedure::accuracy::can_be_kept;
 pub use crate::procedure::choose_scheme::choose_scheme;
-use crate::procedure::{can_be_kept, check_yielding, scheme as read_scheme};
+use crate::procedure::{check_yielding, scheme as read_scheme};
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
 use crate::values::keys;

@@ -35,7 +35,7 @@ fn check_rest<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
     let Some(analysis) = &sequence.whole.analysis else { return };
     let keys = keys!(
         analysis; kind, geometry, control, end_time, time_step, stop, increment, steps, growth, modes, up_to, damped, speeds,
-        frequencies, method, damping_ratio
+        frequencies, method, damping_ratio, accuracy
     );
     report.reject_unused("a deck with `[[stages]]`, which have their kinds, durations and steps", &keys);
 }

@@ -284,6 +284,7 @@ impl<'d> CurrentStage<'d> {
             geometry: None,
             end_time: (!has_modes).then(|| At { value: *duration, span: place(span(&table.duration)) }),
             time_step: table.time_step.clone().filter(|_| !has_modes),
+            accuracy: None,
             error_tolerance: table.error_tolerance.clone().or(general).filter(|_| !has_modes),
             least_step: least_step.filter(|_| !has_modes),
             stop: self.path_stop(),

@@ -40,14 +40,15 @@ struct WatchedTable {
     /// Of the run under way, and of the one before.
     seen: Account,
     before: Account,
-    /// Of an unseen run.
+    /// Of an unseen run, and of one with a mesh that is coarser still.
     unseen: ComparedHistory,
+    coarsest: ComparedHistory,
     /// The errors by the steps, by column, and the errors by the mesh; empty if they are not known.
     of_steps: Vec<Told>,
     of_mesh: Vec<Told>,
 }
 
-keep!(WatchedTable { seen, before, unseen, of_steps, of_mesh } without { kind, write, rows });
+keep!(WatchedTable { seen, before, unseen, of_steps, of_mesh } without { kind, write, rows, coarsest });
 
 /// The numbers of one run.
 #[derive(Default)]
@@ -69,6 +70,7 @@ impl ErrorBars {
             seen: Account::default(),
             before: Account::default(),
             unseen: ComparedHistory::default(),
+            coarsest: ComparedHistory::default(),
             of_steps: Vec::new(),
             of_mesh: Vec::new(),
         };
@@ -97,6 +99,36 @@ impl ErrorBars {
             table.unseen.keep(frame.state.time, rows.numbers());
         }
         Ok(())
+    }
+
+    /// Receives a frame of a run with a mesh that is coarser than that of the other run.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn on_coarsest_mesh(&mut self, theirs: &mut ErrorBars, frame: &Frame) -> io::Result<()> {
+        for (table, WatchedTable { write, rows, .. }) in self.tables.iter_mut().zip(&mut theirs.tables) {
+            rows.clear();
+            write(rows, frame)?;
+            table.coarsest.keep(frame.state.time, rows.numbers());
+        }
+        Ok(())
+    }
+
+    /// The ratio of the errors of displacements on the coarsest and the other mesh, measured by three meshes; `None` if no node is written.
+    pub fn measured_ratio(&self) -> Option<f64> {
+        let table = self.tables.iter().find(|table| table.kind.columns().any(|column| column.name == "ux"))?;
+        let columns = table.kind.columns().skip(2).filter(|column| column.unit != Unit::Label);
+        let moved: Vec<usize> = columns
+            .enumerate()
+            .filter(|(_, column)| ["ux", "uy", "uz"].contains(&column.name))
+            .map(|(index, _)| index)
+            .collect();
+        let largest = |one: &ComparedHistory, other: &ComparedHistory| {
+            let all = one.largest_differences(other, table.rows.width(), self.rounding)?;
+            Some(moved.iter().map(|&column| all[column]).fold(0.0, f64::max))
+        };
+        let (fine, coarse) = (largest(&table.seen.history, &table.unseen)?, largest(&table.unseen, &table.coarsest)?);
+        (fine > 0.0).then(|| coarse / fine)
     }
 
     /// Records that the run with another mesh has ended; its errors are larger by this factor.

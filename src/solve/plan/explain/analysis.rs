@@ -37,6 +37,15 @@ pub fn explain(text: &mut Explanation, model: &Model) {
             text.notes.extend(model.solution.scheme.note().map(str::to_owned));
         }
     }
+    if let Some(accuracy) = analysis.accuracy {
+        let what = if analysis.is_dynamic() {
+            "time steps, mesh and contact stiffness"
+        } else {
+            "load steps, mesh and contact stiffness"
+        };
+        let how = "chosen by pilot runs before the run; `rdsolve recommend` prints them";
+        text.add("accuracy", format!("{accuracy:e} for {what}, {how}"));
+    }
 }
 
 fn linear(model: &Model, steps: f64) -> String {

@@ -1,0 +1,90 @@
+//! Pilot runs: the deck with other settings, observed at a few times and otherwise unseen.
+
+use base::diagnostic::Source;
+use deck::Deck;
+use model::{Cadence, Model, StepLength};
+use results::observed::{ObservedRun, RunDifference};
+use results::wanted;
+use solve::plan::Plan;
+use solve::system::System;
+use solve::{Counts, Outcome, Run, StepError};
+use std::sync::atomic::AtomicBool;
+
+/// Number of equal intervals between the times of comparison of a motion.
+const INTERVALS: usize = 64;
+/// Largest number of times of comparison of a static analysis.
+const LOAD_TIMES: usize = 32;
+
+/// Makes pilot runs of one deck, and counts their effort.
+pub struct Pilots<'a> {
+    /// The text of the deck with the overrides of the user.
+    pub source: &'a Source,
+    /// Its tables.
+    pub deck: &'a Deck,
+    /// Its model.
+    pub model: &'a Model,
+    /// The tolerance of automatic steps.
+    pub tolerance: f64,
+    pub threads: usize,
+    /// Number of runs so far, and their effort.
+    pub runs: usize,
+    pub effort: Counts,
+}
+
+impl Pilots<'_> {
+    /// The results of the deck with these overrides.
+    ///
+    /// # Errors
+    /// The deck is not valid with them, or the run does not come to its end.
+    pub fn run(&mut self, sets: &[String]) -> Result<ObservedRun, String> {
+        let all: Vec<String> = self.source.sets.iter().map(|(_, set)| set).chain(sets).cloned().collect();
+        let with = if sets.is_empty() { String::new() } else { format!(" with {}", sets.join(", ")) };
+        let source = Source::new(self.source.path.clone(), self.source.text.clone(), &all);
+        let (Some(mut model), _) = model::read(&source) else { return Err(format!("the deck is not valid{with}")) };
+        // Times of output would limit steps.
+        model.output.cadence = Cadence::Steps(usize::MAX);
+        let system = System::new(&model)?;
+        let plan = Plan::new(&model, &system, self.threads);
+        let stop = AtomicBool::new(false);
+        let run = Run::new(&model, &system, &plan, wanted(&model).where_due(), &stop);
+        let mut run = run.map_err(|error| error.to_string())?;
+        let mut observed = ObservedRun::new(&model);
+        let is_automatic = matches!(model.analysis.step_length, StepLength::ErrorControlled { .. });
+        let like = is_automatic.then(|| StepError::new(self.tolerance));
+        let outcome = run.rehearse(self.times(), like, &mut observed);
+        let Counts { steps, iterations, factorizations, .. } = run.counts();
+        self.runs += 1;
+        self.effort.steps += steps;
+        self.effort.iterations += iterations;
+        self.effort.factorizations += factorizations;
+        match outcome {
+            Outcome::Done => Ok(observed),
+            Outcome::Failed { time, failure } => Err(format!("the pilot run{with} ends at t = {time}: {failure}")),
+            Outcome::Stopped { time } => Err(format!("the pilot run{with} was stopped at t = {time}")),
+            Outcome::Io(error) => Err(error.to_string()),
+        }
+    }
+
+    /// The difference between the results of a run and those of a coarser one.
+    ///
+    /// # Errors
+    /// The runs have no results in common, or a difference is no number.
+    pub fn difference(&self, fine: &ObservedRun, coarse: &ObservedRun) -> Result<RunDifference, String> {
+        let none = "no result changes with them: name points in `[points]`, or values in `[[expect]]`";
+        let difference = fine.difference(coarse).ok_or_else(|| none.to_owned())?;
+        if difference.size.is_finite() { Ok(difference) } else { Err(format!("the {} is not finite", difference.of)) }
+    }
+
+    /// The times of comparison. Load steps end at them, and so do steps of twice the length.
+    fn times(&self) -> Vec<f64> {
+        let analysis = &self.model.analysis;
+        let end = analysis.end_time;
+        if analysis.is_dynamic() {
+            return (1..=INTERVALS).map(|k| end * k as f64 / INTERVALS as f64).collect();
+        }
+        let pairs = (end / (2.0 * analysis.nominal_step())) as usize;
+        let stride = pairs.div_ceil(LOAD_TIMES).max(1);
+        let times = (1..=pairs / stride).map(|k| 2.0 * analysis.nominal_step() * (k * stride) as f64);
+        times.filter(|time| *time < end * (1.0 - 1e-9)).chain([end]).collect()
+    }
+}

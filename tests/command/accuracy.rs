@@ -1,0 +1,126 @@
+//! `accuracy`: pilot runs choose settings that keep an error, or say which part of the error stays.
+
+use crate::support::{Tables, decks, error, reference};
+use assert_cmd::Command;
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+fn rdsolve(folder: &Path, arguments: &[&str]) -> Output {
+    Command::cargo_bin("rdsolve").unwrap().current_dir(folder).args(arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// The arguments that run a deck with overrides.
+fn with<'a>(command: &'a str, deck: &'a str, sets: &[&'a str]) -> Vec<&'a str> {
+    [command, deck].into_iter().chain(sets.iter().flat_map(|set| ["--set", set])).collect()
+}
+
+fn deck(name: &str) -> String {
+    decks().join(name).join("deck.toml").display().to_string()
+}
+
+fn result(folder: &Path) -> Value {
+    serde_json::from_slice(&fs::read(folder.join("deck.out/result.json")).unwrap()).unwrap()
+}
+
+/// A free beam that flies and bends by radians, from one element of lowest order without a time step. The reference is the history of two
+/// independent programs.
+#[test]
+fn a_motion_keeps_the_error_asked_for() {
+    const ASKED: f64 = 3e-3;
+    let folder = tempfile::tempdir().unwrap();
+    let beam = deck("flying_beam");
+    let accuracy = format!("analysis.accuracy={ASKED}");
+    let sets = [&accuracy, "analysis.time_step=auto", "integrator={scheme=\"esdirk3\"}", "expect=[]"];
+    let mesh = ["beams.rod.elements=1", "beams.rod.order=1", "output.energy=false"];
+    let ran = rdsolve(folder.path(), &with("run", &beam, &[&sets[..], &mesh].concat()));
+    assert!(ran.status.success(), "{}", text(&ran.stderr));
+    let result = result(folder.path());
+    let chosen = &result["accuracy"];
+    let number = |key: &str| chosen[key].as_f64().unwrap_or_else(|| panic!("{key}: {chosen}"));
+    assert_eq!(number("asked"), ASKED);
+    assert!(number("mesh") + result["step_error"]["estimate"].as_f64().unwrap() < 1.5 * ASKED, "{result}");
+    assert!(chosen["remarks"].as_array().unwrap().is_empty(), "{chosen}");
+    let out = tempfile::tempdir().unwrap();
+    for table in ["nodes.csv"] {
+        fs::copy(folder.path().join("deck.out").join(table), out.path().join(table)).unwrap();
+    }
+    let rows = Tables::of(out).rows("nodes.csv");
+    let at = |name: &str| -> Vec<[f64; 3]> {
+        let of = rows.iter().filter(|row| row.text("node") == name);
+        of.map(|row| ["x", "y", "z"].map(|axis| row.number(axis))).collect()
+    };
+    let [a, middle, b] = ["a", "middle", "b"].map(at);
+    let own: Vec<Vec<f64>> = (0..a.len()).map(|k| [a[k], middle[k], b[k]].concat()).collect();
+    let reached = error(&own, &reference("flying_beam"), 0);
+    assert!(reached < 1.5 * ASKED && reached > 0.03 * ASKED, "{reached}");
+}
+
+/// `recommend` prints the deck with the settings written out; it gives the bytes of the run that chose them.
+#[test]
+fn a_recommended_deck_gives_the_bytes_of_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let arc = deck("half_circle");
+    let printed = rdsolve(folder.path(), &["recommend", &arc]);
+    assert!(printed.status.success(), "{}", text(&printed.stderr));
+    let (written, told) = (text(&printed.stdout), text(&printed.stderr));
+    assert!(told.contains("estimated error by mesh"), "{told}");
+    assert!(!written.contains("accuracy =") && !written.contains("elements = 1"), "{written}");
+    assert!(written.contains("# Under a moment M"), "comments are kept: {written}");
+    fs::write(folder.path().join("chosen.toml"), &written).unwrap();
+    for (deck, out) in [("chosen.toml", "pinned"), (arc.as_str(), "chosen")] {
+        let ran = rdsolve(folder.path(), &["run", deck, "-o", out]);
+        assert!(ran.status.success(), "{}", text(&ran.stderr));
+    }
+    let result = |out: &str| -> Value {
+        serde_json::from_slice(&fs::read(folder.path().join(out).join("result.json")).unwrap()).unwrap()
+    };
+    // Tip of the arc of radius EI/M: the error is relative to each displacement.
+    for value in result("pinned")["expectations"].as_array().unwrap() {
+        assert!(value["error"].as_f64().unwrap() < 1e-4, "{value}");
+    }
+    let nodes = |out: &str| fs::read(folder.path().join(out).join("nodes.csv")).unwrap();
+    assert_eq!(nodes("pinned"), nodes("chosen"));
+    // A smaller error needs a finer mesh; without an error there is nothing to choose.
+    let elements = |text: &str| -> u64 {
+        let line = text.lines().find_map(|line| line.strip_prefix("elements = ")).unwrap();
+        line.parse().unwrap()
+    };
+    let finer = text(&rdsolve(folder.path(), &["recommend", &arc, "--accuracy", "1e-6"]).stdout);
+    assert!(elements(&finer) > elements(&written), "{finer}");
+    fs::write(folder.path().join("none.toml"), &written).unwrap();
+    let none = rdsolve(folder.path(), &["recommend", "none.toml"]);
+    assert_eq!(none.status.code(), Some(2));
+    assert!(text(&none.stderr).contains("--accuracy 1e-3"));
+}
+
+/// A stiffness that the deck leaves open is raised until the penetration hardly matters; the values are those of a rigid stop.
+#[test]
+fn open_contacts_become_stiffer() {
+    let folder = tempfile::tempdir().unwrap();
+    let ran = rdsolve(folder.path(), &["run", &deck("tip_on_stop")]);
+    assert!(ran.status.success(), "{}", text(&ran.stderr));
+    let result = result(folder.path());
+    let settings = result["accuracy"]["settings"].to_string();
+    assert!(settings.contains("contacts.0.stiffness="), "{settings}");
+    assert!(result["accuracy"]["contact"].as_f64().unwrap() < 2.5e-4, "{result}");
+    for value in result["expectations"].as_array().unwrap() {
+        assert!(value["error"].as_f64().unwrap() < 1e-3, "{value}");
+    }
+}
+
+/// Elements of a mesh file cannot be refined: the run says that the error of the mesh is not known.
+#[test]
+fn a_mesh_from_a_file_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let bracket = deck("meshed_bracket");
+    let ran = rdsolve(folder.path(), &with("run", &bracket, &["analysis.accuracy=1e-2"]));
+    let said = text(&ran.stderr);
+    assert!(said.contains("come from a mesh file") && said.contains("`accuracy`"), "{said}");
+    assert!(result(folder.path())["accuracy"]["mesh"].is_null());
+}
