@@ -279,6 +279,11 @@ pub const JOINT_REACTION: [Column; 6] = wrench(
     "force of the joint on its first part (`from`): of all that it is, drive, motor, spring and friction included",
     "moment of the joint on its first part, about that end, likewise",
 );
+/// All that a tie exerts on its nodes.
+pub const TIE: [Column; 6] = wrench(
+    "force of the tie on its nodes together",
+    "moment of the tie on its nodes together, about the mean of their places",
+);
 /// Forces and moments of supports at a point.
 pub const REACTION: [Column; 6] = wrench(
     "force of the supports on the structure at this point",

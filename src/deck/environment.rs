@@ -14,6 +14,8 @@ pub struct Environment {
     pub gravity: Maybe<Vector>,
     /// Name of the amplitude that multiplies gravity. Default: constant in dynamics, growing linearly in statics.
     pub gravity_amplitude: Maybe<String>,
+    /// Names of the stages in which gravity acts. Default: all.
+    pub gravity_stages: Maybe<Names>,
     /// Accelerations of the ground. Displacements, velocities and accelerations are then relative to the ground.
     #[serde(default)]
     pub base_acceleration: Vec<At<Table<BaseAcceleration>>>,

@@ -178,6 +178,7 @@ impl Deck {
         all.extend(self.links.iter().map(|table| (table.name.as_ref(), &table.stages)));
         all.extend(self.contacts.iter().map(|table| (table.name.as_ref(), &table.stages)));
         all.extend(self.loads.iter().map(|table| (None, &table.stages)));
+        all.extend(self.environment.iter().map(|table| (None, &table.gravity_stages)));
         all
     }
 }

@@ -26,7 +26,7 @@ pub struct Output {
     /// Write contacts.csv, gaps and forces of contacts, or contact_pairs.csv, forces between parts. `true` is { by = "contacts" }. Default:
     /// false.
     pub contacts: Maybe<FlagOrTable<ContactOutput>>,
-    /// Write reactions.csv: reactions of supports and joints. Default: false.
+    /// Write reactions.csv, reactions of supports and joints, and ties.csv, forces of ties. Default: false.
     pub reactions: Maybe<bool>,
     /// Write sections.csv for beams, bars.csv for bars and shells.csv for shells: stress resultants. `true` is { at = "points" }. Default: false.
     pub sections: Maybe<FlagOrTable<Sections>>,

@@ -30,8 +30,10 @@ pub fn base_motion(im: &mut Importer, block: &KeywordBlock) {
     if im.dialect != Some(Dialect::Abaqus) {
         im.change(line, "displacements are relative to the ground; CalculiX adds its motion");
     }
+    let step = im.steps.at_hand().line;
     im.steps.base_motions.push(BaseMotion {
         line,
+        step,
         axis: axis - 1,
         amplitude: amplitude.to_owned(),
         scale,

@@ -509,6 +509,8 @@ pub struct StepCard {
     pub new_temperatures: bool,
     /// Damping by modes, and its line.
     pub damping: Option<(ModalDamping, usize)>,
+    /// The last mode with that damping, counted without gaps from the first.
+    pub last_damped: u64,
 }
 
 impl StepCard {
@@ -534,6 +536,8 @@ impl StepCard {
 pub struct BaseMotion {
     /// Its line.
     pub line: usize,
+    /// The line of its step.
+    pub step: usize,
     /// The global axis, 0 to 2.
     pub axis: usize,
     /// The name of its amplitude.

@@ -41,9 +41,23 @@ impl Build<'_, '_, '_> {
         self.law_as_table(history)
     }
 
+    /// The law of the root of a value as a table over all general steps; `None` for negative values.
+    pub fn law_of_roots(&mut self, history: &[InStep]) -> Option<TimeLaw> {
+        let mut points = self.points(history);
+        if points.iter().any(|point| point[1] < 0.0) {
+            return None;
+        }
+        points.iter_mut().for_each(|point| point[1] = point[1].sqrt());
+        Some(self.table_of(points, history))
+    }
+
     /// The law of a value as a table over all general steps.
     pub fn law_as_table(&mut self, history: &[InStep]) -> TimeLaw {
         let points = self.points(history);
+        self.table_of(points, history)
+    }
+
+    fn table_of(&mut self, points: Vec<[f64; 2]>, history: &[InStep]) -> TimeLaw {
         let scale = points.iter().map(|point| point[1]).fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
         if scale == 0.0 {
             return TimeLaw { scale: 0.0, amplitude: None, stages: None };

@@ -147,6 +147,10 @@ fn directed(build: &mut Build, card: &PropertyCard, nodes: &[u64], table: DeckTa
 /// Springs and dampers between two nodes along axes that turn with the first.
 fn joint(build: &mut Build, card: &PropertyCard, nodes: &[u64], table: DeckTable) -> Option<DeckTable> {
     let (a, b) = (nodes[0], nodes[1]);
+    if card.rows.iter().flatten().all(|x| *x == 0.0) {
+        build.im.refuse(card.line, "this *JOINT has no *SPRING and no *DASHPOT, and joins nothing");
+        return None;
+    }
     let turns = (3..6).filter(|dof| card.rows.iter().any(|row| row[*dof] != 0.0)).collect::<Vec<usize>>();
     let turns = if card.orientation.is_some() && !turns.is_empty() { vec![3, 4, 5] } else { turns };
     build.tied.bushed.extend(nodes);
@@ -158,9 +162,13 @@ fn joint(build: &mut Build, card: &PropertyCard, nodes: &[u64], table: DeckTable
 }
 
 /// Adds the local axes of a property.
-fn along(build: &Build, card: &PropertyCard, table: DeckTable) -> DeckTable {
-    let axes = card.orientation.as_ref().and_then(|name| build.im.axes.get(&name.to_lowercase()).copied().flatten());
-    match axes {
+fn along(build: &mut Build, card: &PropertyCard, table: DeckTable) -> DeckTable {
+    let Some(name) = &card.orientation else { return table };
+    let axes = build.im.axes.get(&name.to_lowercase()).copied();
+    if axes.is_none() {
+        build.im.refuse(card.line, &format!("no system of axes is named `{name}`"));
+    }
+    match axes.flatten() {
         Some(axes) => table.value("axes", list(axes.iter().map(|axis| vector(axis.as_slice())))),
         None => table,
     }

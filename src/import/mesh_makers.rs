@@ -2,13 +2,14 @@
 
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
-use crate::scopes::{Members, NamedTarget, PlacedElement};
+use crate::scopes::{Members, NamedTarget, PlacedElement, ScopeContent};
 use base::math::{Vec3, rotation};
 use base::text_file::cards::Data;
-use std::collections::HashMap;
 
-/// The most nodes or elements that one line makes.
-const MOST: u64 = 10_000_000;
+/// The most nodes and elements that the keywords of a file make: a typing error in a count does not fill the memory.
+const MOST: u64 = 2_000_000;
+/// How far a node may lie from the place where a line makes it, over the length of the line.
+const SAME: f64 = 1e-9;
 
 /// The largest number of a node or an element that these keywords may make; `largest`: of those that stand in the file.
 pub fn largest(blocks: &[KeywordBlock], mut largest: u64) -> u64 {
@@ -24,6 +25,10 @@ pub fn largest(blocks: &[KeywordBlock], mut largest: u64) -> u64 {
                 };
                 largest = block.data.iter().map(last).fold(largest, u64::max);
             }
+            "NFILL" => {
+                let added = |data: &Data| whole(data, 2).saturating_mul(whole(data, 3));
+                largest = largest.saturating_add(block.data.iter().map(added).max().unwrap_or(0));
+            }
             "NCOPY" => largest = largest.saturating_add(added("CHANGENUMBER")),
             "ELCOPY" => largest = largest.saturating_add(added("ELEMENTSHIFT").max(added("SHIFTNODES"))),
             _ => {}
@@ -32,30 +37,22 @@ pub fn largest(blocks: &[KeywordBlock], mut largest: u64) -> u64 {
     largest.min(u64::from(u32::MAX))
 }
 
-/// The places of all nodes read so far in the scope of a line.
-fn places(im: &mut Importer) -> HashMap<u64, Vec3> {
-    im.scopes.here().nodes.iter().copied().collect()
-}
-
-/// Adds nodes to the scope of the line, and to a set where a parameter names one.
-fn add(im: &mut Importer, block: &KeywordBlock, parameter: &str, nodes: &[(u64, Vec3)]) {
-    let set = block.keyword.value(parameter).map(str::to_owned);
+/// The scope of the line with its maps.
+fn updated<'i>(im: &'i mut Importer) -> &'i mut ScopeContent {
     let here = im.scopes.here();
-    here.nodes.extend(nodes);
-    if let Some(set) = set {
-        here.node_sets.place(&set).extend(nodes.iter().map(|node| node.0));
-    }
+    here.update();
+    here
 }
 
-/// Numbers between two, both among them, by an increment; refuses an increment that does not lead from one to the other.
-fn numbers(im: &mut Importer, data: &Data, first: u64, last: u64, step: u64) -> Option<Vec<u64>> {
-    let (low, high) = (first.min(last), first.max(last));
-    if step == 0 || !(high - low).is_multiple_of(step) || (high - low) / step > MOST {
-        im.refuse(data.line, &format!("the increment {step} does not lead from node {first} to node {last}"));
-        return None;
+/// True where the file may make so many more; refuses more.
+fn has_room(im: &mut Importer, line: usize, count: u64) -> bool {
+    let made = im.scopes.made.saturating_add(count);
+    if made > MOST {
+        im.refuse(line, &format!("keywords make more than {MOST} nodes and elements: write the mesh as one flat file"));
+        return false;
     }
-    let count = (high - low) / step;
-    Some((0..=count).map(|k| if first <= last { first + k * step } else { first - k * step }).collect())
+    im.scopes.made = made;
+    true
 }
 
 /// `*NGEN`: nodes on the line between two.
@@ -63,25 +60,50 @@ pub fn between_nodes(im: &mut Importer, block: &KeywordBlock) {
     if block.keyword.has("LINE") {
         return im.refuse(block.keyword.line, "nodes on a straight line alone are made; write those of arcs");
     }
-    let (known, offset) = (places(im), im.scopes.offset_here());
-    let mut made = Vec::new();
+    let offset = im.scopes.offset_here();
+    let mut all = Vec::new();
     for data in block.data.iter().filter(|data| data.filled() > 0) {
         let (Some(first), Some(last)) = (im.id(data, 0), im.id(data, 1)) else { continue };
         let step = if data.filled() > 2 { im.id(data, 2).unwrap_or(1) } else { 1 };
-        let Some(ids) = numbers(im, data, first, last, step) else { continue };
-        let (Some(a), Some(b)) = (known.get(&(first + offset)), known.get(&(last + offset))) else {
+        let length = first.abs_diff(last);
+        if step == 0 || !length.is_multiple_of(step) {
+            im.refuse(data.line, &format!("the increment {step} does not lead from node {first} to node {last}"));
+            continue;
+        }
+        let parts = length / step;
+        let places = &updated(im).places.0;
+        let ends = [first, last].map(|id| places.get(&(id + offset)).copied());
+        let [Some(a), Some(b)] = ends else {
             im.refuse(data.line, &format!("node {first} or node {last} does not exist before this line"));
             continue;
         };
-        let parts = (ids.len() - 1).max(1) as f64;
-        made.extend(ids.iter().enumerate().map(|(k, id)| (id + offset, a + (b - a) * (k as f64 / parts))));
+        if !has_room(im, data.line, parts.saturating_sub(1)) {
+            return;
+        }
+        for k in 0..=parts {
+            let id = offset + if first <= last { first + k * step } else { first - k * step };
+            let x = a + (b - a) * (k as f64 / parts.max(1) as f64);
+            all.push(id);
+            add(im, (id, x), (data.line, (b - a).norm()));
+        }
     }
-    let ends: Vec<u64> = made.iter().map(|node| node.0).filter(|id| known.contains_key(id)).collect();
-    let new: Vec<(u64, Vec3)> = made.into_iter().filter(|node| !known.contains_key(&node.0)).collect();
-    add(im, block, "NSET", &new);
     if let Some(set) = block.keyword.value("NSET") {
-        im.scopes.here().node_sets.place(set).extend(ends);
+        im.scopes.here().node_sets.place(set).extend(all);
     }
+}
+
+/// Adds a node, unless it is there already; refuses one that is at another place. `size`: a length beside which places are compared.
+fn add(im: &mut Importer, (id, x): (u64, Vec3), (line, size): (usize, f64)) {
+    match updated_place(im, id) {
+        None => im.scopes.here().nodes.push((id, x)),
+        Some(known) if (known - x).norm() <= SAME * size => {}
+        Some(_) => im.refuse(line, &format!("node {id} exists before this line, at another place")),
+    }
+}
+
+/// The place of a node of the scope of the line, as of the last update.
+fn updated_place(im: &mut Importer, id: u64) -> Option<Vec3> {
+    im.scopes.here().places.0.get(&id).copied()
 }
 
 /// `*NFILL`: nodes between those of two sets.
@@ -89,64 +111,71 @@ pub fn between_sets(im: &mut Importer, block: &KeywordBlock) {
     if ["BIAS", "TWOSTEP", "SINGULAR"].iter().any(|name| block.keyword.has(name)) {
         return im.refuse(block.keyword.line, "nodes at even distances alone are made; write others");
     }
-    let known = places(im);
-    let mut made = Vec::new();
+    let mut all = Vec::new();
+    updated(im);
     for data in block.data.iter().filter(|data| data.filled() > 0) {
         let (Some(parts), Some(step)) = (im.id(data, 2), im.id(data, 3)) else { continue };
         let ends: Vec<_> = (0..2).map(|at| im.target(&data.words[at])).collect();
-        let ids = |target| {
-            let mut ids = im.scopes.members(target, Members::Nodes)?;
-            ids.sort_unstable();
-            ids.dedup();
-            Some(ids)
-        };
-        let ends = ends.iter().map(ids).collect::<Option<Vec<_>>>();
+        let ends = ends.iter().map(|target| im.scopes.members(target, Members::Nodes)).collect::<Option<Vec<_>>>();
         let Some([first, last]) = ends.as_deref() else {
             im.refuse(data.line, "no node set before this line has one of these names");
             continue;
         };
-        let places = |ids: &[u64]| ids.iter().map(|id| known.get(id).copied()).collect::<Option<Vec<Vec3>>>();
-        let (Some(from), Some(to)) = (places(first), places(last)) else {
-            im.refuse(data.line, "a node of these sets does not exist before this line");
-            continue;
-        };
-        if first.len() != last.len() || parts == 0 || parts * first.len() as u64 > MOST {
-            im.refuse(data.line, "both sets need the same number of nodes, and one interval or more");
+        let is_paired = |(a, b): (&u64, &u64)| parts.checked_mul(step).is_some_and(|span| a + span == *b);
+        if first.len() != last.len() || parts == 0 || !first.iter().zip(last).all(is_paired) {
+            let why =
+                "each node of the first set, with the increment for each interval, must lead to that of the second set";
+            im.refuse(data.line, why);
             continue;
         }
-        for ((id, a), b) in first.iter().zip(from).zip(to) {
-            made.extend((1..parts).map(|k| (id + k * step, a + (b - a) * (k as f64 / parts as f64))));
+        if !has_room(im, data.line, (parts - 1).saturating_mul(first.len() as u64)) {
+            return;
+        }
+        for (id, end) in first.iter().zip(last) {
+            let (Some(a), Some(b)) = (updated_place(im, *id), updated_place(im, *end)) else {
+                im.refuse(data.line, "a node of these sets does not exist before this line");
+                break;
+            };
+            for k in 1..parts {
+                let node = (id + k * step, a + (b - a) * (k as f64 / parts as f64));
+                add(im, node, (data.line, (b - a).norm()));
+            }
+            all.extend((0..=parts).map(|k| id + k * step));
         }
     }
-    add(im, block, "NSET", &made);
+    if let Some(set) = block.keyword.value("NSET") {
+        im.scopes.here().node_sets.place(set).extend(all);
+    }
 }
 
 /// `*ELGEN`: rows and layers of elements like one.
 pub fn rows_of_elements(im: &mut Importer, block: &KeywordBlock) {
     let offset = im.scopes.offset_here();
-    let mut made: Vec<PlacedElement> = Vec::new();
     let mut all = Vec::new();
     for data in block.data.iter().filter(|data| data.filled() > 0) {
         let Some(id) = im.id(data, 0) else { continue };
-        let Some(master) = im.scopes.here().cells.iter().find(|cell| cell.id == id + offset).cloned() else {
+        let here = updated(im);
+        let master = here.cells_at.0.get(&(id + offset)).map(|at| here.cells[*at].clone());
+        let Some(master) = master else {
             im.refuse(data.line, &format!("element {id} does not exist before this line"));
             continue;
         };
         // Count, step of nodes, step of elements: along a row, over rows, over layers.
         let mut cells = vec![master];
-        all.push(id + offset);
         for first in [1, 4, 7].into_iter().filter(|first| data.filled() > *first) {
-            let mut read = |at: usize, blank: u64| {
+            let mut read = |at: usize| {
                 let is_blank = data.words.get(at).is_none_or(|word| word.bytes.is_empty());
-                if is_blank { Some(blank) } else { im.id(data, at) }
+                if is_blank { Some(1) } else { im.id(data, at) }
             };
-            let (Some(count), Some(nodes), Some(elements)) = (read(first, 1), read(first + 1, 1), read(first + 2, 1))
-            else {
-                continue;
-            };
-            if count == 0 || count.saturating_mul(cells.len() as u64) > MOST {
-                im.refuse(data.line, "these are no elements, or too many");
+            let (Some(count), Some(nodes), Some(elements)) = (read(first), read(first + 1), read(first + 2)) else {
                 break;
+            };
+            if count == 0 {
+                im.refuse(data.line, "a number of elements is 1 or more");
+                break;
+            }
+            if !has_room(im, data.line, (count - 1).saturating_mul(cells.len() as u64)) {
+                return;
             }
             let row = cells.clone();
             for k in 1..count {
@@ -158,14 +187,11 @@ pub fn rows_of_elements(im: &mut Importer, block: &KeywordBlock) {
                 }));
             }
         }
-        made.extend(cells.into_iter().skip(1));
+        all.extend(cells.iter().map(|cell| cell.id));
+        im.scopes.here().cells.extend(cells.into_iter().skip(1));
     }
-    all.extend(made.iter().map(|cell| cell.id));
-    let set = block.keyword.value("ELSET").map(str::to_owned);
-    let here = im.scopes.here();
-    here.cells.extend(made);
-    if let Some(set) = set {
-        here.cell_sets.place(&set).extend(all);
+    if let Some(set) = block.keyword.value("ELSET") {
+        im.scopes.here().cell_sets.place(set).extend(all);
     }
 }
 
@@ -184,11 +210,13 @@ fn copied(im: &mut Importer, block: &KeywordBlock, of: Members) -> Option<Vec<u6
     let line = block.keyword.line;
     let name = block.keyword.value("OLDSET").unwrap_or_default().to_owned();
     let target = NamedTarget { scope: im.scopes.at, name, is_set: true, line };
-    let ids = im.scopes.members(&target, of);
-    if ids.is_none() {
-        im.refuse(line, &format!("no set before this line is named `{}`", target.name));
+    match im.scopes.members(&target, of) {
+        Some(ids) => has_room(im, line, ids.len() as u64).then_some(ids),
+        None => {
+            im.refuse(line, &format!("no set before this line is named `{}`", target.name));
+            None
+        }
     }
-    ids
 }
 
 /// `*NCOPY`: nodes moved, then turned.
@@ -218,9 +246,18 @@ pub fn copied_nodes(im: &mut Importer, block: &KeywordBlock) {
         let x = x + translation;
         turn.as_ref().map_or(x, |(center, turn)| center + turn * (x - center))
     };
-    let known = places(im);
-    let made: Vec<(u64, Vec3)> = ids.iter().filter_map(|id| Some((id + change, place(known.get(id)?)))).collect();
-    add(im, block, "NEWSET", &made);
+    let places = &updated(im).places.0;
+    let made: Vec<(u64, Option<Vec3>)> = ids.iter().map(|id| (*id, places.get(id).map(place))).collect();
+    if let Some((id, _)) = made.iter().find(|node| node.1.is_none()) {
+        return im.refuse(line, &format!("node {id} of this set does not exist before this line"));
+    }
+    for (id, x) in &made {
+        let x = x.unwrap_or_default();
+        add(im, (id + change, x), (line, x.norm()));
+    }
+    if let Some(set) = block.keyword.value("NEWSET") {
+        im.scopes.here().node_sets.place(set).extend(ids.iter().map(|id| id + change));
+    }
 }
 
 /// `*ELCOPY`: elements between copied nodes.
@@ -233,18 +270,21 @@ pub fn copied_elements(im: &mut Importer, block: &KeywordBlock) {
     else {
         return;
     };
-    let wanted: std::collections::HashSet<u64> = ids.into_iter().collect();
-    let set = block.keyword.value("NEWSET").map(str::to_owned);
-    let here = im.scopes.here();
+    let here = updated(im);
     let like = |cell: &PlacedElement| PlacedElement {
         id: cell.id + elements,
         nodes: cell.nodes.iter().map(|node| node + nodes).collect(),
         line: block.keyword.line,
         ..cell.clone()
     };
-    let made: Vec<PlacedElement> = here.cells.iter().filter(|cell| wanted.contains(&cell.id)).map(like).collect();
-    if let Some(set) = set {
-        here.cell_sets.place(&set).extend(made.iter().map(|cell| cell.id));
+    let found = ids.iter().map(|id| here.cells_at.0.get(id).map(|at| like(&here.cells[*at])).ok_or(*id));
+    match found.collect::<Result<Vec<PlacedElement>, u64>>() {
+        Ok(made) => {
+            if let Some(set) = block.keyword.value("NEWSET") {
+                here.cell_sets.place(set).extend(made.iter().map(|cell| cell.id));
+            }
+            here.cells.extend(made);
+        }
+        Err(id) => im.refuse(block.keyword.line, &format!("element {id} of this set does not exist before this line")),
     }
-    here.cells.extend(made);
 }

@@ -27,8 +27,12 @@ pub fn output(build: &mut Build) {
     if let Some(([alpha, beta], line)) = of_modes {
         build.deck.add(DeckTable::new("damping", line).number("mass_factor", alpha).number("stiffness_factor", beta));
     }
+    let is_unused = of_modes.is_some() || harmonics::goes_by_modes(build.im);
+    let damped = build.im.materials.list.iter().filter(|material| is_unused && material.damping.is_some());
+    let lines: Vec<usize> = damped.map(|material| material.line).collect();
+    lines.into_iter().for_each(|line| build.im.ignore(line, "modes have the damping of *MODAL DAMPING alone"));
     match build.im.materials.damping() {
-        _ if of_modes.is_some() => {}
+        _ if is_unused => {}
         Ok(Some([alpha, beta])) => {
             let line = build.im.materials.list.iter().find(|material| material.damping.is_some()).map_or(0, |m| m.line);
             say_what_is_damped(build, line, [alpha, beta]);

@@ -90,6 +90,10 @@ pub struct ScopeContent {
     pub nodes: Vec<(u64, Vec3)>,
     /// The elements.
     pub cells: Vec<PlacedElement>,
+    /// The places of the nodes read so far by number, as [`ScopeContent::update`] left them, and their count.
+    pub places: (HashMap<u64, Vec3>, usize),
+    /// The indices of the elements read so far by number, likewise.
+    pub cells_at: (HashMap<u64, usize>, usize),
     /// Sets of nodes.
     pub node_sets: SetTable,
     /// Sets of elements.
@@ -99,6 +103,16 @@ pub struct ScopeContent {
 }
 
 impl ScopeContent {
+    /// Brings the maps of nodes and elements up to date.
+    pub fn update(&mut self) {
+        let (map, count) = &mut self.places;
+        map.extend(self.nodes[*count..].iter().copied());
+        *count = self.nodes.len();
+        let (map, count) = &mut self.cells_at;
+        map.extend(self.cells[*count..].iter().zip(*count..).map(|(cell, at)| (cell.id, at)));
+        *count = self.cells.len();
+    }
+
     /// Its sets of a kind.
     pub fn sets(&self, of: Members) -> &SetTable {
         if of == Members::Nodes { &self.node_sets } else { &self.cell_sets }
@@ -156,6 +170,8 @@ pub struct Scopes {
     pub at: ScopeIndex,
     /// The types of elements in the file.
     pub types: Vec<ElementType>,
+    /// Nodes and elements that keywords have made.
+    pub made: u64,
 }
 
 impl Scopes {

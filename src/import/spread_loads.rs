@@ -101,8 +101,8 @@ fn one(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history): (&
     if line.kind == "GRAV" {
         return gravity(build, line, law, (lines, history));
     }
-    if matches!(&line.kind[..], "CENTRIF" | "CENT") && !line.is_surface {
-        return rotation(build, line, law, lines);
+    if line.kind == "CENTRIF" && !line.is_surface {
+        return rotation(build, line, law, (lines, history));
     }
     if line.is_surface {
         return surface(build, line, law, lines);
@@ -153,6 +153,7 @@ fn reason(kind: &str) -> String {
         "ROTA" | "CORIO" => {
             format!("loads of kind {kind} act in a rotating frame; give the parts an angular velocity instead")
         }
+        "CENT" => "CENT is the density times the square of a speed: give CENTRIF, without the density".to_owned(),
         "NEWTON" => "bodies do not attract each other in rdsolve".to_owned(),
         _ if kind.starts_with("ED") => {
             format!("loads of kind {kind} act on edges: give a force per length at a set of nodes")
@@ -226,11 +227,16 @@ fn gravity(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history)
         return build.im.refuse(line.line, "gravity has one direction and one amplitude in rdsolve");
     }
     build.has_gravity = true;
-    let law = if law.stages.is_some() { build.law_as_table(history) } else { law.clone() };
+    let stages = law.stages.clone();
+    let law = if stages.is_some() && law.amplitude.is_some() { build.law_as_table(history) } else { law.clone() };
     let g = direction * law.scale;
     let table = DeckTable::new("environment", 0).with_lines(lines.iter().copied()).numbers("gravity", g.as_slice());
-    build.deck.add(match &law.amplitude {
+    let table = match &law.amplitude {
         Some(name) => table.text("gravity_amplitude", name),
+        None => table,
+    };
+    build.deck.add(match &stages {
+        Some(stages) => table.names("gravity_stages", stages),
         None => table,
     });
 }
@@ -250,21 +256,26 @@ fn point_masses(build: &Build) -> Vec<usize> {
 }
 
 /// Centrifugal forces. The file has the square of the angular velocity, whose root the deck has.
-fn rotation(build: &mut Build, line: &SpreadLine, law: &TimeLaw, lines: &[usize]) {
+fn rotation(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history): (&[usize], &[InStep])) {
     let of = |at: usize| line.values.get(at).copied().unwrap_or(0.0);
     let (about, axis) = ([of(1), of(2), of(3)], Vec3::new(of(4), of(5), of(6)));
     let Some(axis) = axis.try_normalize(0.0) else {
         return build.im.refuse(line.line, "CENTRIF needs a point of the axis and its direction behind its magnitude");
     };
-    if law.scale < 0.0 {
+    let is_named = history.iter().any(|state| matches!(state, InStep::Begins(given) if given.amplitude.is_some()));
+    if is_named || build.timeline.stages.iter().any(|stage| stage.is_dynamic) {
+        let why = "CENTRIF acts in static steps and modes, without AMPLITUDE: that of the deck scales the speed, not its square";
+        return build.im.refuse(line.line, why);
+    }
+    let law = match law.amplitude {
+        None if law.scale >= 0.0 => Some(TimeLaw { scale: law.scale.sqrt(), ..law.clone() }),
+        None => None,
+        Some(_) => build.law_of_roots(history),
+    };
+    let Some(law) = law else {
         return build.im.refuse(line.line, "the magnitude of CENTRIF is the square of an angular velocity");
-    }
-    if law.amplitude.is_some() && !build.timeline.is_joined() {
-        return build
-            .im
-            .refuse(line.line, "an amplitude of CENTRIF is not translated: that of the deck scales the speed");
-    }
-    let mut keys = vec![("axis", vector(axis.as_slice())), ("speed", number(law.scale.sqrt()))];
+    };
+    let mut keys = vec![("axis", vector(axis.as_slice())), ("speed", number(law.scale))];
     if about != [0.0; 3] {
         keys.push(("about", vector(&about)));
     }
@@ -277,5 +288,5 @@ fn rotation(build: &mut Build, line: &SpreadLine, law: &TimeLaw, lines: &[usize]
         names.extend(masses.map(|at| format!("mesh.{}", build.mesh.cells[at].nodes[0])));
         table = table.names("part", &names);
     }
-    build.deck.add(in_time(table.value("centrifugal", inline(&keys)), Some(law)));
+    build.deck.add(in_time(table.value("centrifugal", inline(&keys)), Some(&law)));
 }

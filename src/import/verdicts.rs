@@ -2,9 +2,10 @@
 
 use base::diagnostic::{Diagnostic, Severity};
 use base::text_file::{Fault, Text, Word};
+use std::collections::HashSet;
 
 /// The verdict on a line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum KeywordVerdict {
     /// The deck says the same.
     Translated,
@@ -58,12 +59,16 @@ pub struct Verdicts {
     keywords: Vec<(usize, String)>,
     /// All rows, as they were found.
     pub rows: Vec<VerdictRow>,
+    /// What has been said of each keyword.
+    known: HashSet<(Option<usize>, KeywordVerdict, String)>,
+    /// The keywords with a verdict.
+    judged: HashSet<Option<usize>>,
 }
 
 impl Verdicts {
     /// No verdicts yet on keywords at these lines.
     pub fn new(keywords: Vec<(usize, String)>) -> Self {
-        Verdicts { keywords, rows: Vec::new() }
+        Verdicts { keywords, ..Verdicts::default() }
     }
 
     /// The keyword that a line belongs to: its place in the list.
@@ -74,14 +79,10 @@ impl Verdicts {
     /// Adds a verdict on a line. One sentence about several lines of a keyword is reported once.
     pub fn add(&mut self, text: &Text, verdict: KeywordVerdict, line: usize, said: Option<Fault>, about: String) {
         let of = self.keyword(line);
-        let first = of.map_or(0, |of| self.keywords[of].0);
-        if self
-            .rows
-            .iter()
-            .any(|row| row.verdict == verdict && row.line >= first && row.line <= line && row.text == about)
-        {
+        if !self.known.insert((of, verdict, about.clone())) {
             return;
         }
+        self.judged.insert(of);
         let keyword = of.map_or_else(String::new, |of| self.keywords[of].1.clone());
         let (file, file_line) = text.origin(line);
         let severe = verdict >= KeywordVerdict::Changed;
@@ -104,8 +105,7 @@ impl Verdicts {
 
     /// True where a keyword has a verdict already; `line`: its own.
     pub fn has(&self, line: usize) -> bool {
-        let next = self.keyword(line).and_then(|of| self.keywords.get(of + 1)).map_or(usize::MAX, |next| next.0);
-        self.rows.iter().any(|row| (line..next).contains(&row.line))
+        self.judged.contains(&self.keyword(line))
     }
 
     /// The number of rows with a verdict.

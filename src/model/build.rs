@@ -16,7 +16,7 @@ use super::data::{
     Analysis, ArcLength, Cadence, Constraints, Contact, Damping, Expect, FieldFiles, Iteration, Joint, Load, LoadCases,
     Mass, MeshFile, Model, Origin, Part, RecordFile, Rigid, RunStage, Solution, StepLength, Study,
 };
-use super::environment::{AccelerationFields, damping, environment};
+use super::environment::{AccelerationFields, damping, environment, gravity};
 use super::equations::equations;
 use super::expects::expects;
 use super::groups::Groups;
@@ -288,6 +288,11 @@ fn model<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, files: Files<'d>, 
             joints,
             restraints,
             targets,
+            ties: deck
+                .ties
+                .iter()
+                .map(|tie| tie.name.as_ref().map_or_else(String::new, |at| at.value.clone()))
+                .collect(),
         },
         loading: acting.fields.with(amplitudes, acting.loads),
         cases: asked.cases,
@@ -344,7 +349,7 @@ fn act<'d>(scene: &mut Scene<'d>, joined: &mut JoinedNodes, efforts: Vec<Load>, 
     let (mut actors, turned) = supports(scene, amplitudes, (topology, joints), report);
     temperatures(scene, amplitudes, topology, &mut actors, report);
     set_bulges(&mut scene.parts.list, topology, scene.stage.map_or(&[], |stage| &stage.sequence.bulges));
-    let contacts = contacts(scene, masses, joints, fields.gravity, topology, report);
+    let contacts = contacts(scene, masses, joints, gravity(scene.deck), topology, report);
     let efforts = [&efforts[..], &links.pulls[..]].concat();
     let loads = loads(scene, (efforts, &masses[..]), amplitudes, topology, &mut actors, report);
     let damping = damping(scene, topology, report);

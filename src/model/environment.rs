@@ -28,6 +28,11 @@ impl AccelerationFields {
     }
 }
 
+/// The gravity of a deck, in whatever stages it acts.
+pub(super) fn gravity(deck: &Deck) -> Vec3 {
+    deck.environment.as_ref().map_or_else(Vec3::zeros, |environment| vec3_or_zero(&environment.gravity))
+}
+
 /// Reads `[environment]`.
 pub(super) fn environment<'d>(
     deck: &'d Deck,
@@ -47,7 +52,8 @@ pub(super) fn environment<'d>(
             accelerations.push(BaseAcceleration { direction: direction * scale, amplitude });
         }
     }
-    let own = stage.map(|stage| stage.own_amplitude(&None));
+    let own = stage.map(|stage| stage.own_amplitude(&environment.gravity_stages));
+    let acts = stage.is_none_or(|stage| stage.is_loaded(&environment.gravity_stages));
     let gravity_amplitude = environment.gravity_amplitude.as_ref().map_or(own, |name| {
         if environment.gravity.is_none() {
             return report.error(&name.span, "`gravity_amplitude` needs `gravity`");
@@ -55,7 +61,7 @@ pub(super) fn environment<'d>(
         report.find("amplitude", &deck.amplitudes, name).map(|(index, _)| index)
     });
     AccelerationFields {
-        gravity: vec3_or_zero(&environment.gravity),
+        gravity: if acts { gravity(deck) } else { Vec3::zeros() },
         gravity_amplitude,
         base_accelerations: accelerations,
     }

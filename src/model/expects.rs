@@ -285,6 +285,12 @@ impl<'d> Expects<'_, 'd> {
         if name.value == "analysis" && self.scene.names.declared("analysis").is_none() {
             return Some((ExpectAt::Analysis, vec![quantities::TIME]));
         }
+        // Ties share no names with other things, which come first.
+        let tie =
+            self.scene.deck.ties.iter().position(|tie| tie.name.as_ref().is_some_and(|at| at.value == name.value));
+        if let Some(tie) = tie.filter(|_| self.scene.names.declared(&name.value).is_none()) {
+            return Some((ExpectAt::Tie(tie), quantities::TIE.to_vec()));
+        }
         match self.scene.place_or_node(name) {
             Some(Place::Point(node)) => {
                 let columns = [quantities::MOTION.concat(), self.reactions(node)].concat();

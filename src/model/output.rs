@@ -1,6 +1,6 @@
 //! `[output]`: tables, nodes and times of output.
 
-use super::data::{Cadence, Drift, FieldFiles, FieldFormat, JointOrigin, Model, Node, Output};
+use super::data::{Cadence, Drift, FieldFiles, FieldFormat, Model, Node, Output};
 use super::places::place::Place;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
@@ -108,7 +108,7 @@ pub(super) fn write_all_nodes(model: &mut Model) {
     let heats = model.parts.iter().filter_map(|part| part.heat());
     heats.flat_map(|heat| heat.numbers).flatten().for_each(|node| is_other[node] = true);
     // Arms of ties are no nodes of the deck.
-    for tie in model.constraints.joints.iter().filter(|joint| joint.origin == JointOrigin::Tie) {
+    for tie in model.constraints.joints.iter().filter(|joint| joint.is_tie()) {
         tie.all_ends().for_each(|node| is_other[node] |= model.nodes[node].label.starts_with(&tie.name));
     }
     let amplitudes = model.parts.iter_mut().filter(|part| part.kind().is_floating());

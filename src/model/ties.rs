@@ -4,7 +4,7 @@
 //! distance from the face. On faces with straight sides half the way from the corner to the foot adds to it. Sides of shells bend and bulge with
 //! the rotations of their ends, and so does the face between them.
 
-use super::data::Joint;
+use super::data::{Joint, JointOrigin};
 use super::places::nearest_nodes::NodesAlongAxis;
 use super::places::nodes::Nodes;
 use super::places::place::Place;
@@ -77,7 +77,8 @@ pub(super) fn ties<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report
                 report.error_with::<()>(spot.span, message, "a node is tied once: leave it out of one of the two ties");
                 continue;
             }
-            joints.extend(hold.join(&name, (spot, owner.span), turns, nodes));
+            let joint = hold.join(&name, (spot, owner.span), turns, nodes);
+            joints.extend(joint.map(|joint| Joint { origin: JointOrigin::Tie(index), ..joint }));
         }
     }
     joints

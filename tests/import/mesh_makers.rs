@@ -58,16 +58,21 @@ fn meshes_that_cannot_be_made() {
         ("1, 5, 2\n", "1, 6, 1\n", "node 1 or node 6 does not exist"),
         ("*NGEN, NSET=low", "*NGEN, NSET=low, LINE=C", "straight line alone"),
         ("low, high, 2, 50", "low, other, 2, 50", "no node set before this line"),
-        ("low, high, 2, 50", "low, all, 2, 50", "the same number of nodes"),
+        ("low, high, 2, 50", "low, all, 2, 50", "must lead to that of the second set"),
+        ("low, high, 2, 50", "low, high, 2, 40", "must lead to that of the second set"),
         ("*NFILL, NSET=all", "*NFILL, NSET=all, BIAS=0.5", "even distances alone"),
         ("1, 2, 2, 1, 2, 50, 2\n", "9, 2, 2, 1, 2, 50, 2\n", "element 9 does not exist"),
-        ("1, 2, 2, 1, 2, 50, 2\n", "1, 99999999, 2, 1\n", "or too many"),
+        ("1, 2, 2, 1, 2, 50, 2\n", "1, 99999999, 2, 1\n", "more than 2000000 nodes and elements"),
+        ("CHANGE NUMBER=1000, SHIFT", "CHANGE NUMBER=4, SHIFT", "at another place"),
+        ("5, 4., 0., 0.\n", "5, 4., 0., 0.\n3, 9., 9., 9.\n", "node 3 exists before this line, at another place"),
+        ("OLD SET=low,", "OLD SET=lost,", "node 99 of this set does not exist"),
         ("CHANGE NUMBER=1000, SHIFT", "CHANGE NUMBER=1000, REFLECT=LINE", "REFLECT of *NCOPY is not read"),
         ("CHANGE NUMBER=1000, SHIFT", "SHIFT", "needs CHANGENUMBER="),
         ("0., 0., 0., 0., 0., 1., 180.", "0., 0., 0., 0., 0., 0., 180.", "the two points of the axis"),
         ("OLD SET=rib,", "OLD SET=ribbon,", "no set before this line is named `ribbon`"),
     ] {
         assert!(MADE.contains(old), "{old}");
-        refuses(&format!("{}{REST}", MADE.replacen(old, new, 1)), &[], why);
+        let text = MADE.replacen(old, new, 1).replacen("*ELEMENT", "*NSET, NSET=lost\n99\n*ELEMENT", 1);
+        refuses(&format!("{text}{REST}"), &[], why);
     }
 }

@@ -170,6 +170,8 @@ fn joints_of_springs() {
     refused("*SPRING\n1\n200.\n", "*SPRING\n1\n", "its axis, from 1 to 6");
     refused("*SPRING\n1\n", "*SPRING, NONLINEAR\n1\n", "are linear in rdsolve");
     refused("JOINT, ELSET=j, ", "JOINT, ", "*JOINT needs ELSET=");
+    refused("ORIENTATION=O", "ORIENTATION=P", "no system of axes is named `P`");
+    refused("*SPRING\n1\n200.\n*DASHPOT\n3,\n4.\n*SPRING\n6\n50.\n", "", "joins nothing");
 }
 
 #[test]
@@ -218,6 +220,22 @@ fn loads_on_parts() {
     has(SHELL, &load(spun), None, &format!("[[loads]]\n{wanted}"));
     refuses(SHELL, &load("*DLOAD\nskin, CENTRIF, -5., 0., 0., 0., 0., 0., 1."), "the square of an angular velocity");
     refuses(SHELL, &load("*DLOAD\nskin, CENTRIF, 5."), "CENTRIF needs a point");
+    refuses(SHELL, &load("*DLOAD\nskin, CENT, 5., 0., 0., 0., 0., 0., 1."), "give CENTRIF, without the density");
+    refuses(
+        SHELL,
+        &[("*STATIC\n0.5, 1.\n*CLOAD\n3, 3, 5.", &format!("*DYNAMIC\n0.5, 1.\n{spun}"))],
+        "static steps and modes",
+    );
+    let named = ("*STEP", "*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n*STEP");
+    refuses(SHELL, &[named, ("*CLOAD\n3, 3, 5.", &spun.replace("*DLOAD", "*DLOAD, AMPLITUDE=A"))], "without AMPLITUDE");
+    // Squares of 25 and 100 in two linear steps are speeds of 5 and 10.
+    let second = format!("*END STEP\n*STEP\n*STATIC\n1., 1.\n{}\n*END STEP\n", spun.replace("25.", "100."));
+    let linear = [
+        ("*STEP, NLGEOM\n*STATIC\n0.5, 1.\n*CLOAD\n3, 3, 5.", &*format!("*STEP\n*STATIC\n1., 1.\n{spun}")),
+        ("*END STEP\n", &second),
+    ];
+    has(SHELL, &linear, None, "points = [[0.0, 0.0], [1.0, 0.5], [2.0, 1.0]]\n");
+    has(SHELL, &linear, None, "speed = 10.0");
     let beside = "*ELEMENT, TYPE=MASS, ELSET=w\n5, 3\n*MASS, ELSET=w\n3.\n*BOUNDARY";
     let part = format!("[[loads]]\npart = \"skin\"\n{wanted}");
     has(SHELL, &[("*CLOAD\n3, 3, 5.", spun), ("*BOUNDARY", beside)], None, &part);

@@ -137,3 +137,20 @@ fn parameters_that_count() {
     has(&general("7.8D3"), &[], Some(Dialect::Abaqus), "density = 7800.0\n");
     refuses(&general("heavy"), &[], "DENSITY must be a number");
 }
+
+/// Gravity of a later step is not there in the modes before it, and then acts at once: z = −g t²/2.
+#[test]
+fn gravity_after_modes() {
+    let text = "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n*ELEMENT, TYPE=SPRING1, ELSET=ES\n1, 2\n*SPRING, ELSET=ES\n1\n400.\n\
+                *ELEMENT, TYPE=MASS, ELSET=EM\n2, 2\n*MASS, ELSET=EM\n1.\n*BOUNDARY\n2, 2\n*STEP\n*FREQUENCY\n1\n*END STEP\n\
+                *STEP, NLGEOM\n*DYNAMIC, DIRECT, ALPHA=0.\n0.01, 0.1\n*DLOAD\n, GRAV, 9.81, 0., 0., -1.\n*NODE PRINT\nU\n*END STEP\n";
+    let made = imported(text);
+    assert!(made.deck.contains("gravity = [0.0, 0.0, -9.81]\ngravity_stages = \"step_2\"\n"), "{}", made.deck);
+    let folder = super::command::folder(&[("a.inp", text)]);
+    let (code, said, problems) = super::command::rdsolve(folder.path(), &["a.inp"]);
+    assert_eq!((code, problems.contains("equilibrium")), (0, false), "{said}{problems}");
+    let nodes = std::fs::read_to_string(folder.path().join("a.out/nodes.csv")).unwrap();
+    let numbers = nodes.lines().last().unwrap().split(',').filter_map(|word| word.parse::<f64>().ok());
+    // The trapezoidal rule has parabolas to rounding.
+    assert!(numbers.into_iter().any(|x| (x + 9.81 * 0.01 / 2.0).abs() < 1e-12), "{nodes}");
+}

@@ -2,7 +2,7 @@
 
 use super::command::{folder, rdsolve};
 use super::rows::{BEAM, edited, has, refuses};
-use super::{deck, imported, imported_from, reasons, refusals, tables};
+use super::{deck, imported_from, reasons, refusals, tables};
 use import::{Dialect, KeywordVerdict};
 use std::f64::consts::TAU;
 
@@ -48,14 +48,14 @@ fn a_mass_on_a_spring() {
 #[test]
 fn moved_supports() {
     let loads = "*CLOAD\n2, 1, 3.\n*CLOAD, LOAD CASE=2\n2, 1, 5.\n";
-    let base = "*AMPLITUDE, NAME=A\n0., 7., 9., 7.\n*BOUNDARY";
-    let moved = [("*BOUNDARY", base), (loads, "*BASE MOTION, DOF=1, AMPLITUDE=a\n")];
+    let base = "*AMPLITUDE, NAME=A\n0., 7., 9., 7.\n*PHYSICAL";
+    let moved = [("*PHYSICAL", base), (loads, "*BASE MOTION, DOF=1, AMPLITUDE=a\n")];
     for [frequency, size, _] in response(&edited(&deck("steady"), &moved)) {
         let w = TAU * frequency;
         let wanted = 7.0 / (400.0 - w * w).hypot(4.0 * w);
         assert!((size / wanted - 1.0).abs() < 1e-9, "{frequency}: {size}"); // rounding of the mode
     }
-    let text = edited(&deck("steady"), &[("*BOUNDARY", base), (loads, "*BASE MOTION, DOF=1, AMPLITUDE=A\n")]);
+    let text = edited(&deck("steady"), &[("*PHYSICAL", base), (loads, "*BASE MOTION, DOF=1, AMPLITUDE=A\n")]);
     assert!(
         reasons(&imported(&text), KeywordVerdict::Changed).iter().any(|how| how.contains("CalculiX adds its motion"))
     );
@@ -76,17 +76,18 @@ fn rows_of_steady_motions() {
     let step = |keyword: &str, data: &str| {
         edited(BEAM, &[("*STEP, NLGEOM\n*STATIC\n0.5, 1.\n", &format!("*STEP\n{keyword}\n{data}\n"))])
     };
+    let calculix = Some(Dialect::Calculix);
     let range = "frequencies = { from = 1.0, to = 2.0, steps = 20, around_resonances = 10 }\nmethod = \"modal\"\n";
-    has(&step("*STEADY STATE DYNAMICS", "1., 2."), &[], None, range);
-    has(&step("*STEADY STATE DYNAMICS", "1., 1."), &[], None, "frequencies = 1.0\nmethod = \"modal\"\n");
+    has(&step("*STEADY STATE DYNAMICS", "1., 2."), &[], calculix, range);
+    has(&step("*STEADY STATE DYNAMICS", "1., 1."), &[], calculix, "frequencies = 1.0\nmethod = \"modal\"\n");
     let direct = "frequencies = { from = 1.0, to = 2.0, steps = 5, spacing = \"logarithmic\" }\n";
     has(&step("*STEADY STATE DYNAMICS, DIRECT", "1., 2., 5"), &[], Some(Dialect::Abaqus), direct);
     let linear = "*STEADY STATE DYNAMICS, DIRECT, FREQUENCY SCALE=LINEAR";
     has(&step(linear, "1., 2., 5"), &[], Some(Dialect::Abaqus), "{ from = 1.0, to = 2.0, steps = 5 }\n");
-    has(&step(linear, "1., 2., 5"), &[], None, "[amplitudes.real]\nkind = \"harmonic\"\n");
+    has(&step(linear, "1., 2., 5"), &[], calculix, "[amplitudes.real]\nkind = \"harmonic\"\n");
     let phased = edited(&step(linear, "1., 2., 5"), &[("*CLOAD", "*CLOAD, IMAGINARY")]);
-    has(&phased, &[], None, "force = [0.0, 0.0, 5.0]\namplitude = \"imaginary\"\n");
-    has(&phased, &[], None, "[amplitudes.imaginary]\nkind = \"harmonic\"\nphase_degrees = 90.0\n");
+    has(&phased, &[], calculix, "force = [0.0, 0.0, 5.0]\namplitude = \"imaginary\"\n");
+    has(&phased, &[], calculix, "[amplitudes.imaginary]\nkind = \"harmonic\"\nphase_degrees = 90.0\n");
     for (keyword, data, why) in [
         ("*STEADY STATE DYNAMICS, HARMONIC=NO", "1., 2.", "loads are harmonic in rdsolve"),
         ("*STEADY STATE DYNAMICS", "2., 1.", "must not be below the lowest"),
@@ -97,11 +98,51 @@ fn rows_of_steady_motions() {
         ("*STEADY STATE DYNAMICS", "1., 2.\n*MODAL DAMPING", "needs values on the line below"),
         ("*STEADY STATE DYNAMICS", "1., 2.\n*DLOAD\n, GRAV, 9., 0., 0., -1.", "give *BASE MOTION"),
         ("*STEADY STATE DYNAMICS", "1., 2.\n*CLOAD, AMPLITUDE=a\n2, 1, 1.", "depends on the frequency"),
+        ("*STEADY STATE DYNAMICS", "1., 2.\n*MODAL DAMPING\n1, 2", "needs a damping ratio"),
+        ("*STEADY STATE DYNAMICS", "1., 2.\n*MODAL DAMPING, VISCOUS=COMPOSITE\n1, 2, 0.1", "composite damping"),
+        ("*STEADY STATE DYNAMICS, INTERVAL=SPREAD", "1., 2.", "INTERVAL=SPREAD is not translated"),
+        ("*STEADY STATE DYNAMICS", "1., 2., 1e12", "too many frequencies"),
+        ("*STEADY STATE DYNAMICS", "1., 2.\n*END STEP\n*STEP\n*STATIC", "nothing excites this step"),
+        ("*BUCKLE", "1\n*BOUNDARY, LOAD CASE=2\n2, 2", "modes of buckling have the supports of the loads"),
         ("*STATIC", "1., 1.\n*CLOAD, LOAD CASE=2\n2, 2, 1.", "acts in *STEADY STATE DYNAMICS alone"),
         ("*MODAL DYNAMIC", "1., 1.\n*MODAL DAMPING\n1, 2, 0.1", "computes this step without modes"),
     ] {
-        refuses(&step(keyword, data), &[], why);
+        let said = refusals(&imported_from(&step(keyword, data), calculix));
+        assert!(said.iter().any(|said| said.contains(why)), "{why} is not in {said:?}");
     }
+    for (keyword, data) in [
+        ("*STEADY STATE DYNAMICS", "1., 2."),
+        ("*STEADY STATE DYNAMICS, FREQUENCY SCALE=LINEAR", "1."),
+        ("*STEADY STATE DYNAMICS, FREQUENCY SCALE=LINEAR", "1., 2., 1"),
+    ] {
+        refuses(&step(keyword, data), &[], "say --from abaqus or --from calculix");
+    }
+    has(&step(linear, "1., 2., 1"), &[], Some(Dialect::Abaqus), "to = 2.0, steps = 20 }\n");
+    has(&step("*STEADY STATE DYNAMICS", "5."), &[], Some(Dialect::Abaqus), "frequencies = 5.0\n");
+    let text = |made: &import::Imported| reasons(made, KeywordVerdict::Changed).join(" ");
+    let made = imported_from(&step("*STEADY STATE DYNAMICS", "1., 2., 5, 4."), Some(Dialect::Abaqus));
+    assert!(text(&made).contains("bias and scale") && text(&made).contains("by equal factors"), "{}", text(&made));
+    // Damping of all modes, or of some; that of the material does not act on modes.
+    let modes = |data: &str, more: &str| {
+        let steps =
+            format!("*STEP\n*FREQUENCY\n5\n*END STEP\n*STEP\n*STEADY STATE DYNAMICS\n1., 2.\n*MODAL DAMPING{data}\n");
+        let edits = [("*STEP, NLGEOM\n*STATIC\n0.5, 1.\n", &*steps), ("*DENSITY", more)];
+        imported_from(&edited(BEAM, &edits), calculix)
+    };
+    for (data, all) in [
+        ("\n1, 5, 0.1", true),
+        ("\n1, 2, 0.1\n3, 9, 0.1", true),
+        ("\n1, 2, 0.1\n4, 5, 0.1", false),
+        ("\n2, 5, 0.1", false),
+    ] {
+        let made = modes(data, "*DENSITY");
+        assert!(tables(&made.deck).contains("damping_ratio = 0.1\n"), "{}", made.deck);
+        assert_eq!(!text(&made).contains("not those alone"), all, "{data}");
+    }
+    let made = modes(", VISCOUS=RAYLEIGH\n1, 5, 0.5, 1e-4", "*DAMPING, ALPHA=3.\n*DENSITY");
+    assert!(tables(&made.deck).contains("[damping]\nmass_factor = 0.5\nstiffness_factor = 0.0001\n"), "{}", made.deck);
+    assert!(reasons(&made, KeywordVerdict::Ignored).iter().any(|said| said.contains("MODAL DAMPING alone")));
+    assert!(!tables(&modes("\n1, 5, 0.1", "*DAMPING, ALPHA=3.\n*DENSITY").deck).contains("[damping]"));
     let rayleigh = step("*MODAL DYNAMIC", "0.1, 1.\n*MODAL DAMPING, RAYLEIGH\n1, 9, 0.3, 0.2");
     has(&rayleigh, &[], None, "[damping]\nmass_factor = 0.3\nstiffness_factor = 0.2\n");
     let both = edited(&rayleigh, &[("*END STEP\n", "*END STEP\n*STEP\n*DYNAMIC\n1., 1.\n*END STEP\n")]);

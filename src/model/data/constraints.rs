@@ -18,6 +18,23 @@ pub struct Constraints {
     pub targets: Vec<([usize; 2], f64)>,
     /// The nodes with all three rotations given, more than one of them moving.
     pub turns: Vec<GivenTurn>,
+    /// The names of `[[ties]]`, in deck order.
+    pub ties: Vec<String>,
+}
+
+impl Constraints {
+    /// The ties that hold nodes: the index of each in [`Constraints::ties`], and its joints.
+    pub fn tied(&self) -> impl Iterator<Item = (usize, std::ops::Range<usize>)> + '_ {
+        let mut start = 0;
+        self.joints.chunk_by(|a, b| a.origin == b.origin).filter_map(move |joints| {
+            let range = start..start + joints.len();
+            start = range.end;
+            match joints[0].origin {
+                JointOrigin::Tie(tie) => Some((tie, range)),
+                _ => None,
+            }
+        })
+    }
 }
 
 /// A node whose rotation is given by three numbers together.
@@ -75,8 +92,8 @@ pub enum JointOrigin {
     Support,
     /// An attachment that elimination cannot do.
     Attachment,
-    /// A node of an entry of `[[ties]]`.
-    Tie,
+    /// A node of an entry of `[[ties]]`, by its index.
+    Tie(usize),
 }
 
 /// The coordinate of a joint, its drive and its effort.
@@ -147,7 +164,12 @@ impl Joint {
     pub fn tie(name: String, node: usize, shares: &[SecondNode], equations: Vec<ConstraintEquation>) -> Option<Joint> {
         let (first, more) = shares.split_first()?;
         let joint = Joint::new(name, [node, first.node], equations, false);
-        Some(Joint { weight: first.weight, more: more.to_vec(), origin: JointOrigin::Tie, ..joint })
+        Some(Joint { weight: first.weight, more: more.to_vec(), origin: JointOrigin::Tie(0), ..joint })
+    }
+
+    /// True for a joint of a tied node.
+    pub fn is_tie(&self) -> bool {
+        matches!(self.origin, JointOrigin::Tie(_))
     }
 
     /// Its nodes: the first, then all second ones.
@@ -155,9 +177,9 @@ impl Joint {
         self.ends.into_iter().chain(self.more.iter().map(|share| share.node))
     }
 
-    /// True for joints with rows in joints.csv: supports are in reactions.csv, and ties in no table.
+    /// True for joints with rows in joints.csv: supports are in reactions.csv, ties in ties.csv.
     pub fn is_listed(&self) -> bool {
-        !self.supports && self.origin != JointOrigin::Tie
+        !self.supports && !self.is_tie()
     }
 
     /// Lets its coordinate follow a drive, by one more equation. A joint without a coordinate is not changed.

@@ -45,6 +45,8 @@ pub enum ExpectAt {
     CriticalSpeed(usize),
     /// Force and moment on the first end of a joint.
     Joint(usize),
+    /// Columns of ties.csv, by the place in [`super::Constraints::ties`].
+    Tie(usize),
     /// Largest values over the shells from one place in [`Model::parts`] to before another: of von Mises stress and plastic strain.
     Shells(usize, usize),
     /// A beam by its place in [`super::Model::parts`]: of forces and moments in its sections those of the largest magnitude, and its largest

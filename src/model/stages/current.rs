@@ -145,8 +145,9 @@ impl<'d> CurrentStage<'d> {
 
     /// True if this holds except for the loads.
     pub fn loads_alone_change(&self) -> bool {
-        // Loads come last in the list of tables with stages.
-        let others = self.sequence.whole.loads.len();
+        // Loads and gravity come last in the list of tables with stages.
+        let whole = self.sequence.whole;
+        let others = whole.loads.len() + usize::from(whole.environment.is_some());
         let without_loads = |index| {
             let mut held = self.sequence.held(index);
             held.truncate(held.len() - others);
@@ -169,7 +170,7 @@ impl<'d> CurrentStage<'d> {
     }
 
     /// True where a load with these `stages` acts: about modes those of the stage before do.
-    fn is_loaded(&self, stages: &Maybe<Names>) -> bool {
+    pub fn is_loaded(&self, stages: &Maybe<Names>) -> bool {
         let before = self.sequence.before(self.index).filter(|_| self.has_modes());
         self.holds(stages) || before.is_some_and(|before| self.sequence.holds(before, stages))
     }

@@ -22,6 +22,7 @@ mod sections;
 mod shell_order;
 mod shells;
 mod steps;
+mod ties;
 
 use super::table::TableKind;
 
@@ -35,6 +36,7 @@ pub static TABLES: &[&TableKind] = &[
     &contacts::TABLE,
     &contact_pairs::TABLE,
     &joints::TABLE,
+    &ties::TABLE,
     &reactions::TABLE,
     &sections::TABLE,
     &bars::TABLE,

@@ -22,26 +22,39 @@ pub fn redundant_constraints(plan: &Plan, model: &Model, system: &System) -> Vec
             None => lines.push((joint, vec![word])),
         }
     }
-    let line = |(joint, words): (usize, Vec<&str>)| {
-        let of = &model.constraints.joints[joint];
+    let line = |(joint, words): &(usize, Vec<&str>)| {
+        let of = &model.constraints.joints[*joint];
         let node = &model.nodes[of.ends[0]].label;
         let (what, all) = match of.origin {
             JointOrigin::Deck => (format!("joint `{}`", of.name), "joints"),
             JointOrigin::Support => (format!("the support of `{node}`"), "supports"),
             JointOrigin::Attachment => (format!("the attachment of `{node}`"), "attachments"),
-            JointOrigin::Tie => (format!("the tie of `{node}`"), "ties"),
+            JointOrigin::Tie(_) => (format!("the tie of `{node}`"), "ties"),
         };
         let (are, these) = if words.len() == 1 { ("is", "this reaction") } else { ("are", "these reactions") };
         format!(
             "{what}: {} {are} redundant; the {all} share {these} by least norm, weighted by the masses that they move",
-            joined(&words)
+            joined(words)
         )
     };
-    let more = lines.len().saturating_sub(LISTED);
-    lines.truncate(LISTED);
+    // Nodes of one tie that share alike are one line.
+    let origin = |line: &(usize, Vec<&str>)| model.constraints.joints[line.0].origin;
+    let mut groups: Vec<&[(usize, Vec<&str>)]> =
+        lines.chunk_by(|a, b| origin(a) == origin(b) && matches!(origin(a), JointOrigin::Tie(_))).collect();
+    let more = groups.len().saturating_sub(LISTED);
+    groups.truncate(LISTED);
     let more =
         (more > 0).then(|| format!("{more} more joints have redundant equations, and share their reactions alike"));
-    lines.into_iter().map(line).chain(more).collect()
+    let all = groups.into_iter().map(|group| match (group, origin(&group[0])) {
+        ([first, _, ..], JointOrigin::Tie(tie)) => of_tie(&model.constraints.ties[tie], group.len(), line(first)),
+        _ => line(&group[0]),
+    });
+    all.chain(more).collect()
+}
+
+/// The line of a tie with several such nodes, from that of the first.
+fn of_tie(tie: &str, nodes: usize, first: String) -> String {
+    format!("tie `{tie}`: {nodes} nodes have redundant equations, the first: {first}")
 }
 
 /// The word of an equation; supports and attachments are written about global axes.
