@@ -669,6 +669,7 @@ fn isolators() {
     let links = [
         "law = \"friction-pendulum\"".to_owned(),
         format!("{pendulum}\n{axes}\nfriction = -0.1"),
+        format!("{pendulum}\n{axes}\nfriction = 0.1\ndamping = {{ beta = 1e-3 }}"),
         format!("{pendulum}\n{axes}\nfriction = {{ slow = 0.03, fast = -0.06 }}"),
         format!(
             "{pendulum}\n{axes}\nfriction = 0.1\nyield_force = 1e3\ndirection = [0.0, 0.0, 1.0]\ndamping = 10.0\npretension = 5.0"

@@ -35,6 +35,19 @@ pub struct Loaded {
     pub hash: String,
 }
 
+/// The model of a deck that has been read before, with further overrides, for a run beside it.
+///
+/// # Errors
+/// The deck is not valid with them.
+pub fn read_with(source: &Source, sets: &[String]) -> Result<Model, String> {
+    let all: Vec<String> = source.sets.iter().map(|(_, set)| set).chain(sets).cloned().collect();
+    let source = Source::new(source.path.clone(), source.text.clone(), &all);
+    let with = if sets.is_empty() { String::new() } else { format!(" with {}", sets.join(", ")) };
+    let (Some(mut model), _) = model::read(&source) else { return Err(format!("the deck is not valid{with}")) };
+    reduce(&mut [&mut model]).map_err(|_| format!("a reduced part has no matrices{with}"))?;
+    Ok(model)
+}
+
 impl Loaded {
     /// The models of all stages, or the only one.
     pub fn models(&self) -> Vec<&Model> {

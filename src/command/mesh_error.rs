@@ -1,12 +1,12 @@
 //! `run --mesh-error`: the error of the mesh, estimated by another run with a coarser one.
 
+use super::load::read_with;
 use base::diagnostic::Source;
-use model::{self, Cadence, Model};
+use model::{Cadence, Model};
 use results::error_bars::ErrorBars;
 use results::expect::Expectations;
 use results::result_json::ReportedMesh;
 use results::wanted;
-use solve::modes::reduce;
 use solve::plan::Plan;
 use solve::system::System;
 use solve::{Counts, Frame, Observer, Outcome, Run, StepError};
@@ -88,15 +88,7 @@ impl OtherMesh<'_> {
     /// # Errors
     /// The reason why there is no such run.
     fn run(&mut self, sets: &[String]) -> Result<Counts, String> {
-        let source = self.source;
-        let all: Vec<String> = source.sets.iter().map(|(_, set)| set).chain(sets).cloned().collect();
-        let source = Source::new(source.path.clone(), source.text.clone(), &all);
-        let (Some(mut theirs), _) = model::read(&source) else {
-            return Err(format!("the deck is not valid with {}", sets.join(", ")));
-        };
-        if reduce(&mut [&mut theirs]).is_err() {
-            return Err("a reduced part has no matrices with another mesh".to_owned());
-        }
+        let mut theirs = read_with(self.source, sets)?;
         let system = System::new(&theirs)?;
         let plan = Plan::new(&theirs, &system, self.threads);
         theirs.output.cadence = self.cadence;

@@ -178,6 +178,7 @@ pub enum LinkLaw {
     /// A slider on a spherical dish: restoring force and friction by the compression of the instant, in all directions across the first of `axes`.
     /// Lifted off, it carries nothing. It has no moments of its own; add a `bushing` for them.
     FrictionPendulum,
-    /// Rubber with a lead core: shear that yields on a circle, and a linear spring along the first of `axes`.
+    /// Rubber with a lead core: shear that yields on a circle, and a linear spring along the first of `axes`. Beta of damping acts on
+    /// `axial_stiffness` and `post_yield_stiffness`.
     LeadRubber,
 }

@@ -145,8 +145,20 @@ fn docs_show_commands_that_exist() {
 /// Options in backticks, alone or behind `rdsolve`, with the help of all commands.
 #[test]
 fn docs_name_options_that_exist() {
-    let commands =
-        ["run", "check", "import", "report", "compare", "study", "recommend", "sweep", "summary", "schema", "init", "completions"];
+    let commands = [
+        "run",
+        "check",
+        "import",
+        "report",
+        "compare",
+        "study",
+        "recommend",
+        "sweep",
+        "summary",
+        "schema",
+        "init",
+        "completions",
+    ];
     let help = |command: &&str| rdsolve(&[command, "--help"]).output().unwrap().stdout;
     let known: Vec<u8> = commands.iter().flat_map(help).collect();
     let known = String::from_utf8(known).unwrap();

@@ -6,6 +6,7 @@ use rdsolve::amplitude::Amplitude;
 use rdsolve::elements::beam::{FibreModel, IntegrationRule};
 use rdsolve::elements::damper::Damper;
 use rdsolve::elements::heat::Heat;
+use rdsolve::elements::isolator::IsolatorLaw;
 use rdsolve::elements::link::LinkLaw;
 use rdsolve::elements::pressure::Face;
 use rdsolve::elements::shell::{self, DRILLING, Plate};
@@ -314,6 +315,20 @@ pub fn zoo(rng: &mut StdRng, kind: AnalysisKind, time_step: f64) -> Model {
         kind: LinkKind::Bushing {
             stiffness: [9.0, 12.0, 8.0, 3.0, 4.0, 2.0],
             damping: [0.0; 6],
+            axes: rotation::matrix(&turn(rng)),
+        },
+        own_damping: OwnDamping::default(),
+        failure: None,
+        take_up: None,
+    });
+    // Rubber that does not yield: its first end moves and turns.
+    m.add(Link {
+        name: "rubber".into(),
+        ends: [p[1], offset],
+        kind: LinkKind::Isolator {
+            law: IsolatorLaw::Rubber { yield_force: 1e9, post_yield_stiffness: 3.0 },
+            stiffness: 9.0,
+            axial_stiffness: 15.0,
             axes: rotation::matrix(&turn(rng)),
         },
         own_damping: OwnDamping::default(),

@@ -1,5 +1,6 @@
 //! Pilot runs: the deck with other settings, observed at a few times and otherwise unseen.
 
+use super::super::load::read_with;
 use base::diagnostic::Source;
 use deck::Deck;
 use model::{Cadence, Model, StepLength};
@@ -37,10 +38,8 @@ impl Pilots<'_> {
     /// # Errors
     /// The deck is not valid with them, or the run does not come to its end.
     pub fn run(&mut self, sets: &[String]) -> Result<ObservedRun, String> {
-        let all: Vec<String> = self.source.sets.iter().map(|(_, set)| set).chain(sets).cloned().collect();
         let with = if sets.is_empty() { String::new() } else { format!(" with {}", sets.join(", ")) };
-        let source = Source::new(self.source.path.clone(), self.source.text.clone(), &all);
-        let (Some(mut model), _) = model::read(&source) else { return Err(format!("the deck is not valid{with}")) };
+        let mut model = read_with(self.source, sets)?;
         // Times of output would limit steps.
         model.output.cadence = Cadence::Steps(usize::MAX);
         let system = System::new(&model)?;

@@ -102,6 +102,10 @@ pub trait Mechanics: Elements {
     fn has_potential(&self) -> bool {
         true
     }
+    /// True where friction with a limit by the load may make the tangent unsymmetric; contacts tell it themselves.
+    fn slips_by_load(&self) -> bool {
+        false
+    }
     /// True where forces depend on velocities.
     fn is_damped(&self) -> bool {
         false

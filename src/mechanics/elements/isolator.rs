@@ -1,7 +1,7 @@
 //! Seismic isolators between two nodes: a slider on a spherical dish (friction pendulum), and rubber with a lead core.
 //!
 //! Components are along the axes B = R₁ A of the first end, whose first axis n is normal to the dish or to the layers of rubber. The second
-//! end has moved by d, of which d_n is along n and u across it. The forces on it are
+//! end has moved by d, of which d_n is along n and u across it. The internal forces, with the sign of a spring, are
 //!   pendulum: N = k_n ⟨u²/2R − d_n⟩,  p_n = −N,  p_u = N u/R + q,  |q| ≤ μ N,  μ = μ_f − (μ_f − μ_s) exp(−a |u̇|),
 //!   rubber:   p_n = k_n d_n,  p_u = k₂ u + q,  |q| ≤ F_y (1 − k₂/k).
 //! q = k₀ (u − u_p) is a spring that slips in the direction of its force (return mapping), so both directions interact on a circle. The
@@ -15,8 +15,8 @@ use crate::state::{Configuration, Node};
 use base::math::{Mat3, Vec3, skew};
 use nalgebra::{Matrix2, Vector2};
 
-/// The number of history variables of each isolator: u_p.
-pub const MEMORY: usize = 2;
+/// The number of history variables of each isolator: u_p, q, and 1 where it slipped last.
+pub const MEMORY: usize = 5;
 
 /// The coefficient of friction over the sliding speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,6 +34,11 @@ impl SlidingFriction {
     fn at(&self, speed: f64) -> [f64; 2] {
         let fades = (self.fast - self.slow) * (-self.rate * speed).exp();
         [self.fast - fades, self.rate * fades]
+    }
+
+    /// True without friction at any speed.
+    fn is_none(&self) -> bool {
+        self.slow == 0.0 && self.fast == 0.0
     }
 
     /// True where the coefficient depends on the speed.
@@ -107,6 +112,7 @@ struct IsolatorForce {
 }
 
 /// The force that slips, q, and its derivatives.
+#[derive(Default)]
 struct Sliding {
     q: Vector2<f64>,
     by_u: Matrix2<f64>,
@@ -167,9 +173,16 @@ impl Isolator {
         let J = Vec3::new(-1.0, u.x / radius, u.y / radius);
         let v = speed.norm();
         let [mu, by_speed] = friction.at(v);
-        let mut sliding = slide(self.stiffness, &(u - slipped), mu * N);
+        let mut sliding = match friction.is_none() {
+            // Nothing sticks, not even at rest.
+            true => Sliding { slip: u - slipped, ..Sliding::default() },
+            false => slide(self.stiffness, &(u - slipped), mu * N),
+        };
         let energy = 0.5 * k * depth.max(0.0).powi(2) + 0.5 * sliding.q.norm_squared() / self.stiffness;
-        if depth >= 0.0 && moduli == Moduli::Elastic {
+        if depth == 0.0 {
+            // Before the first load a slider without friction has nothing else that holds it.
+            sliding.by_u = self.stiffness * Matrix2::identity();
+        } else if depth > 0.0 && !friction.is_none() && moduli == Moduli::Elastic {
             sliding.by_u = self.stiffness * Matrix2::identity();
             sliding.by_limit = Vector2::zeros();
         }
@@ -202,7 +215,7 @@ impl Isolator {
         slipped: &Vector2<f64>,
         moduli: Moduli,
     ) -> IsolatorForce {
-        let hysteretic = self.stiffness - post_yield_stiffness;
+        let hysteretic = self.sticking_stiffness();
         let limit = yield_force * hysteretic / self.stiffness;
         let mut sliding = slide(hysteretic, &(u - slipped), limit);
         if moduli == Moduli::Elastic {
@@ -221,6 +234,25 @@ impl Isolator {
             sticking: sliding.q,
             energy: 0.5 * elastic.dot(d) + 0.5 * sliding.q.norm_squared() / hysteretic,
             damping_power: viscous.dot(rate),
+        }
+    }
+
+    /// The work that the slip of a step dissipates, from the force `before` that slipped already or not. The limit changes evenly over a step that slips
+    /// throughout, and falls to that of the end where the force was above it. Without a limit the stored energy is lost.
+    fn dissipated(&self, before: &Vector2<f64>, slipped: bool, force: &IsolatorForce) -> f64 {
+        let [start, end] = [before.norm(), force.sticking.norm()];
+        if end == 0.0 {
+            return 0.5 * start * start / self.sticking_stiffness();
+        }
+        let mean = if slipped || start > end { 0.5 * (start + end) } else { end };
+        mean * force.slip.norm()
+    }
+
+    /// The stiffness of the spring that slips.
+    fn sticking_stiffness(&self) -> f64 {
+        match self.law {
+            IsolatorLaw::Pendulum { .. } => self.stiffness,
+            IsolatorLaw::Rubber { post_yield_stiffness, .. } => self.stiffness - post_yield_stiffness,
         }
     }
 
@@ -296,6 +328,10 @@ impl Mechanics for Isolators {
         MEMORY * self.list.len()
     }
 
+    fn slips_by_load(&self) -> bool {
+        self.list.iter().any(|of| matches!(&of.law, IsolatorLaw::Pendulum { friction, .. } if !friction.is_none()))
+    }
+
     fn is_damped(&self) -> bool {
         self.list.iter().any(|of| match &of.law {
             IsolatorLaw::Pendulum { friction, .. } => friction.changes(),
@@ -344,11 +380,13 @@ impl Mechanics for Isolators {
     fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
         let mut lost = Dissipation::default();
         new.copy_from_slice(now.history);
-        for ((_, _, force), memory) in self.each(now).zip(new.chunks_exact_mut(MEMORY)) {
+        for ((isolator, _, force), memory) in self.each(now).zip(new.chunks_exact_mut(MEMORY)) {
             let slip = part * force.slip;
-            memory[0] += slip.x;
-            memory[1] += slip.y;
-            lost.plastic += force.sticking.dot(&slip);
+            let (before, after) = (Vector2::new(memory[2], memory[3]), force.sticking);
+            lost.plastic += part * isolator.dissipated(&before, memory[4] > 0.0, &force);
+            let stored = before + part * (after - before);
+            let slid = if slip == Vector2::zeros() { 0.0 } else { 1.0 };
+            memory.copy_from_slice(&[memory[0] + slip.x, memory[1] + slip.y, stored.x, stored.y, slid]);
         }
         lost
     }
@@ -375,5 +413,61 @@ impl Branches for Isolators {
 
     fn branches(&self, now: &Configuration) -> usize {
         self.list.iter().filter(|isolator| isolator.is_lifted(now.nodes)).count()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pendulum(slow: f64, fast: f64) -> Isolator {
+        let friction = SlidingFriction { slow, fast, rate: 2.0 };
+        let law = IsolatorLaw::Pendulum { radius: 2.0, friction };
+        Isolator {
+            nodes: [0, 1],
+            axes: Mat3::identity(),
+            offset: Vec3::zeros(),
+            law,
+            stiffness: 1e3,
+            axial_stiffness: 1e4,
+            beta: 0.0,
+        }
+    }
+
+    /// The elastic moduli are those of a slider that sticks: symmetric, without a derivative by the speed.
+    #[test]
+    fn elastic_moduli_are_symmetric() {
+        let (d, rate) = (Vec3::new(-0.01, 0.3, -0.2), Vec3::new(0.1, 0.4, 0.2));
+        let [elastic, slipping] =
+            [Moduli::Elastic, Moduli::Algorithmic].map(|moduli| pendulum(0.1, 0.2).at(&d, &rate, &[], moduli));
+        assert_eq!(elastic.by_d, elastic.by_d.transpose());
+        assert_eq!(elastic.by_rate, Mat3::zeros());
+        assert!(slipping.by_d != slipping.by_d.transpose() && slipping.by_rate != Mat3::zeros());
+    }
+
+    /// Without friction a slider at rest is held by the dish alone.
+    #[test]
+    fn nothing_sticks_without_friction() {
+        for moduli in [Moduli::Elastic, Moduli::Algorithmic] {
+            let at = pendulum(0.0, 0.0).at(&Vec3::new(-0.01, 0.0, 0.0), &Vec3::zeros(), &[], moduli);
+            assert_eq!(at.by_d, Mat3::from_diagonal(&Vec3::new(1e4, 50.0, 50.0)));
+        }
+    }
+
+    /// Lifted off, the spring that stuck loses what it stored.
+    #[test]
+    fn a_lift_dissipates_what_was_stored() {
+        let mut nodes = [0.0, -0.01].map(|z| crate::state::Node::at_rest(Vec3::new(z, 0.0, 0.0)));
+        let block = Isolators::new(vec![pendulum(0.5, 0.5)]);
+        let mut history = vec![0.0; MEMORY];
+        let mut spent = 0.0;
+        for (z, u) in [(-0.01, 0.02), (0.02, 0.02), (0.02, 0.1)] {
+            nodes[1].x = Vec3::new(z, u, 0.0);
+            let mut next = vec![0.0; MEMORY];
+            let now = Configuration { nodes: &nodes, history: &history, dt: 0.1, previous: None };
+            spent += block.update_history(&now, 1.0, &mut next).plastic;
+            history = next;
+        }
+        assert!((spent - 0.5 * 1e3 * 0.02 * 0.02).abs() < 1e-15, "{spent}");
     }
 }

@@ -34,6 +34,12 @@ pub fn isolator<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Repor
         let hint = "put a link with a `bushing` of zeros and `bushing_damping` beside it";
         report.error_with::<()>(place, format!("`viscous` damping does not apply to {what}"), hint);
     }
+    if let (Some(NumberOrTable::Table(table)), true) = (link.damping.as_ref().map(|given| &given.value), is_pendulum)
+        && let Some(beta) = &table.beta
+    {
+        let hint = "the stiffness of a slider only holds it to its dish: leave it out";
+        report.error_with::<()>(&beta.span, format!("`beta` does not apply to {what}"), hint);
+    }
     let stiffness = report.require_positive(owner, "stiffness", &link.stiffness);
     let axial_stiffness = report.require_positive(owner, "axial_stiffness", &link.axial_stiffness);
     let law = if is_pendulum { pendulum(owner, link, report) } else { rubber(owner, link, stiffness, report) };

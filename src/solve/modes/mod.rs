@@ -48,11 +48,18 @@ pub fn find(
     if !at.model.analysis.has_modes() {
         return Ok(Modes::default());
     }
-    if linear.0.is_symmetric() {
-        return find_with(at, linear, progress);
+    let mut modes = if linear.0.is_symmetric() {
+        find_with(at, linear, progress)?
+    } else {
+        let (mut solver, mut assembly) = at.symmetric_solver()?;
+        find_with(at, (&mut solver, &mut assembly), progress)?
+    };
+    if at.system.has_sliders() {
+        modes.warnings.push(
+            "friction pendulums are taken as stuck, with their `stiffness`. Give `friction = 0.0` for the motion on the dish".to_owned(),
+        );
     }
-    let (mut solver, mut assembly) = at.symmetric_solver()?;
-    find_with(at, (&mut solver, &mut assembly), progress)
+    Ok(modes)
 }
 
 fn find_with(

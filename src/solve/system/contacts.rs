@@ -89,7 +89,12 @@ impl System {
 
     /// True where friction may make the tangent unsymmetric.
     pub fn rubs(&self) -> bool {
-        self.contact_groups().any(|(_, block)| block.rubs())
+        self.contact_groups().any(|(_, block)| block.rubs()) || self.has_sliders()
+    }
+
+    /// True where sliders rub on their dishes.
+    pub fn has_sliders(&self) -> bool {
+        self.groups.iter().any(|group| group.block.slips_by_load())
     }
 
     /// True where any material has history variables.

@@ -9,7 +9,7 @@ use mechanics::elements::bearing::{Bearing, Bearings};
 use mechanics::elements::bushing::{Bushing, Bushings};
 use mechanics::elements::coordinate_law::CoordinateLaw;
 use mechanics::elements::hysteretic_link::{HystereticLink, HystereticLinks};
-use mechanics::elements::isolator::{self, Isolator, Isolators};
+use mechanics::elements::isolator::{self, Isolator, IsolatorLaw, Isolators};
 use mechanics::elements::link::{self, Links};
 use mechanics::elements::link_failure;
 use mechanics::elements::relative_rotation::RotationalSpring;
@@ -92,8 +92,12 @@ impl Assembled for Link {
             }),
             // Across the shaft, or not at all.
             LinkKind::Bearing { .. } => false,
-            // Alike in all directions across its first axis.
-            LinkKind::Isolator { axes, .. } => plane.decouples(&(axes.column(0) * axes.column(0).transpose())),
+            // Alike in all directions across its first axis. A slider that moves in the plane rises out of a dish that lies in it.
+            LinkKind::Isolator { axes, law, .. } => {
+                let rises =
+                    matches!(law, IsolatorLaw::Pendulum { .. }) && !plane.contains(&axes.column(0).into_owned());
+                !rises && plane.decouples(&(axes.column(0) * axes.column(0).transpose()))
+            }
             LinkKind::Joint { lock, law } => {
                 *law == CoordinateLaw::FREE || lock.in_plane(plane.normal, &Vec3::zeros()) == Some(true)
             }
