@@ -48,7 +48,7 @@ use super::plausibility::units::check_units;
 use super::plausibility::unjoined::check_unjoined;
 use super::plausibility::unused::drop_unused;
 use super::plausibility::{check_content, check_static, check_use};
-use super::procedure::choose_scheme::{choose_scheme, scheme_of_struck_sheets};
+use super::procedure::choose_scheme::choose_scheme;
 use super::procedure::control::{control, path_iteration};
 use super::procedure::linear::{check_linear, make_elastic};
 use super::procedure::mass_scaling::check_mass_scaling;
@@ -76,7 +76,6 @@ use super::ties::ties;
 use super::values::vec3;
 use base::diagnostic::{Diagnostic, Source};
 use deck::Deck;
-use deck::analysis::RotaryInertia;
 use deck::read::ROOT;
 use mechanics::amplitude::Amplitude;
 use mechanics::integrators::{Scheme, Stepping};
@@ -514,12 +513,7 @@ fn with_arc_length(
 /// Completes the model with data of the whole: the scheme of automatic steps, stable steps, unused nodes, and the list of nodes.
 fn finish(mut model: Model, all_nodes: bool, deck: &Deck, report: &mut Report) -> Model {
     if deck.integrator.is_none() && matches!(model.analysis.step_length, StepLength::ErrorControlled { .. }) {
-        let is_free = deck.analysis.as_ref().is_some_and(|analysis| analysis.error_tolerance.is_none());
-        let struck = scheme_of_struck_sheets(&model).filter(|_| is_free && model.analysis.stage.is_none());
-        if struck.is_some() {
-            model.solution.rotary_inertia = RotaryInertia::default();
-        }
-        model.solution.scheme = struck.unwrap_or_else(|| choose_scheme(&model));
+        model.solution.scheme = choose_scheme(&model);
         model.solution.scheme_is_chosen = true;
     }
     if model.analysis.step_length.is_automatic() && matches!(model.solution.scheme.stepping(), Stepping::Verlet) {

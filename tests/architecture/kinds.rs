@@ -40,9 +40,8 @@ const CATALOGUES: [(&str, &[&str]); 7] = [
     ("mechanics/solids", &["element_faces", "hollow", "hull_points", "kind", "outline", "segment"]),
 ];
 
-/// Kinds that more than one file besides their own knows: a circle is a tube without a hole, and automatic steps take central differences for
-/// impacts on shells.
-const LISTED_OFTEN: Known = &[("mechanics/integrators/central_difference.rs", 2), ("mechanics/sections/tube.rs", 2)];
+/// Kinds that more than one file besides their own knows: a circle is a tube without a hole.
+const LISTED_OFTEN: Known = &[("mechanics/sections/tube.rs", 2)];
 
 #[test]
 fn parts_are_known_to_few() {

@@ -3,7 +3,6 @@
 mod attachments;
 mod build;
 mod cells;
-mod chosen_scheme;
 mod damping;
 mod grading;
 mod line_loads;

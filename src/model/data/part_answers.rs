@@ -161,11 +161,6 @@ pub trait PartAnswers {
         None
     }
 
-    /// The shortest time in which a wave crosses an element, along a side, of shells of the first order with lumped mass; `None` for other parts.
-    fn crossing_time(&self, _nodes: &[Node]) -> Option<f64> {
-        None
-    }
-
     /// The smaller and the larger depth of a cross-section. For a shell its thickness; for a beam the rectangle with the axial and bending
     /// stiffness of its first element. `None` for other parts.
     fn depths(&self, _stiffnesses: &[Stiffness]) -> Option<[f64; 2]> {

@@ -110,16 +110,6 @@ impl PartAnswers for Shell {
         &self.name
     }
 
-    fn crossing_time(&self, nodes: &[Node]) -> Option<f64> {
-        let suits = self.order == 1 && self.mass == MassKind::Lumped && self.density > 0.0;
-        let sides = self.elements.iter().flat_map(|element| {
-            let corner = move |k: usize| nodes[element.nodes[k % self.corners]].x;
-            (0..self.corners).map(move |k| (corner(k + 1) - corner(k)).norm())
-        });
-        let speed = (self.plate.E / (self.density * (1.0 - self.plate.nu.powi(2)))).sqrt();
-        suits.then(|| sides.fold(f64::INFINITY, f64::min) / speed)
-    }
-
     fn make_elastic(&mut self) -> Option<YieldLimit> {
         self.yielding.take().map(|model| YieldLimit::of(&model.law))
     }

@@ -1,16 +1,8 @@
-//! The default scheme of automatic steps: an explicit one of high order for models without stiff parts, central differences for sheets that
-//! are struck, otherwise an implicit one.
+//! The default scheme of automatic steps: an explicit one of high order for models without stiff parts, otherwise an implicit one.
 
 use crate::data::{LinearSpring, Model};
-use base::math::rotation::RotationUpdate;
-use mechanics::integrators::{CentralDifference, Scheme, automatic_scheme};
+use mechanics::integrators::{Scheme, automatic_scheme};
 use std::sync::Arc;
-
-/// Least number of elements of sheets for central differences: factorizations of fewer are cheap.
-const SHEET: usize = 200;
-/// Largest number of elements that a wave crosses in a run by central differences, each in some two steps. The falling box of 432 elements, where
-/// a wave crosses 4300, takes 0.4 of the time of implicit steps.
-const CROSSED: f64 = 20_000.0;
 
 /// Largest phase ω T of the fastest vibration over a run for explicit steps; they need about two evaluations per radian.
 const PHASE: f64 = 3000.0;
@@ -20,23 +12,6 @@ const EQUATIONS: usize = 60;
 /// The scheme for automatic steps of this model.
 pub fn choose_scheme(model: &Model) -> Arc<dyn Scheme> {
     automatic_scheme(!is_soft(model))
-}
-
-/// Central differences for a model of thin shells with contacts. Impacts ring through the shells, so implicit steps that resolve the contacts are
-/// hardly longer than explicit ones.
-pub fn scheme_of_struck_sheets(model: &Model) -> Option<Arc<dyn Scheme>> {
-    let equations: usize = model.constraints.joints.iter().map(|joint| joint.equations.len()).sum();
-    let (mut elements, mut shortest, mut touches) = (0, f64::INFINITY, false);
-    for part in &model.parts {
-        match part.crossing_time(&model.nodes) {
-            Some(time) => (elements, shortest) = (elements + part.elements(), time.min(shortest)),
-            None if !part.touched_nodes().is_empty() => touches = true,
-            None => return None,
-        }
-    }
-    let crossed = model.analysis.duration() / shortest;
-    let fits = touches && elements >= SHEET && crossed <= CROSSED && equations <= EQUATIONS;
-    fits.then(|| Arc::new(CentralDifference { rotation: RotationUpdate::Exponential, mass_scaling_step: None }) as _)
 }
 
 /// True for rigid bodies alone, on joints and soft linear links.

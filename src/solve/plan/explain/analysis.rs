@@ -26,13 +26,7 @@ pub fn explain(text: &mut Explanation, model: &Model) {
                 _ => format!("in {steps} steps of {}", analysis.nominal_step()),
             };
             text.add("analysis", format!("dynamic, to t = {end} {how}"));
-            let chosen = match (model.solution.scheme_is_chosen, &analysis.step_length) {
-                (false, _) => "",
-                (true, StepLength::StabilityLimited { .. }) => {
-                    ", chosen for impacts on thin shells; with `error_tolerance` steps are implicit"
-                }
-                (true, _) => ", chosen for automatic steps",
-            };
+            let chosen = if model.solution.scheme_is_chosen { ", chosen for automatic steps" } else { "" };
             text.add("scheme", format!("{}{chosen}", model.solution.scheme.in_words()));
             text.notes.extend(model.solution.scheme.note().map(str::to_owned));
         }
