@@ -32,8 +32,8 @@ pub struct Beam {
     /// Sections by station along the beam instead of `section`, from `at = 0` to `at = 1`. Between stations whose sections have one shape and the same
     /// keys, dimensions are linear; between others, the matrices of stiffness and mass are. Convergence is fastest if stations lie at points of the path.
     pub stations: Maybe<Vec<At<Table<Station>>>>,
-    /// A vector in the plane of local x (along the beam) and local y, global at t = 0; not parallel to the beam. Default: the direction nodes
-    /// of the mesh; otherwise local y is level and local z, the height of the section, points up. Upright beams have local y along global y.
+    /// A vector in the plane of local x (along the beam) and local y, global at t = 0; not parallel to the beam.
+    #[schemars(required)]
     pub orientation: Maybe<Vector>,
     /// Polynomial degree of an element, 1 to 4; it has order + 1 nodes. Default: 3.
     pub order: Maybe<u64>,

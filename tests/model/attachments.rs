@@ -34,6 +34,7 @@ path = ["head", "nut"]
 elements = 1
 section = "bolt"
 material = "steel"
+orientation = [1.0, 0.0, 0.0]
 [[supports]]
 at = "plate.edge4"
 fix = ["translations", "rx", "ry", "rz"]

@@ -15,7 +15,7 @@ use crate::part_context::PartContext;
 use crate::report::Owner;
 use crate::sections;
 use crate::values::{chosen, flag, keys, vec3};
-use base::diagnostic::{At, Span};
+use base::diagnostic::At;
 use base::math::quadrature::lobatto;
 use base::math::{Mat3, Vec3};
 use deck::Deck;
@@ -24,9 +24,6 @@ use deck::words::Vector;
 use mechanics::elements::beam::{DEFAULT_ORDER, FibreModel, IntegrationRule, MOST_POINTS};
 use mechanics::elements::heat::Heat;
 use std::collections::HashSet;
-
-/// Sine of the angle to global z below which a beam is upright: coordinates of a mesh have six digits, and a column may lean by its tolerances.
-const UPRIGHT: f64 = 1e-3;
 
 /// Sine of the angle between orientation and axis below which they count as parallel.
 const PARALLEL: f64 = 1e-6;
@@ -82,7 +79,8 @@ fn read_beam<'d>(
         None => cx.sections.beam_section(owner, [&beam.section, &beam.material], (mass, shear), cx.report),
     };
     let yielding = yielding(owner, beam, order, section.is_some(), cx);
-    let line = Line { at, name: &name, owner, beam, order: order.min(4), orientation: beam.orientation.as_ref() };
+    let orientation = cx.report.require(owner, "orientation", &beam.orientation);
+    let line = Line { at, name: &name, owner, beam, order: order.min(4), orientation };
     let elements = match &beam.group {
         Some(group) => line.group_elements(group, cx),
         None if cx.report.is_spoiled(owner.span, "group") => None,
@@ -108,7 +106,7 @@ struct Line<'b, 'd> {
     owner: &'b Owner<'d>,
     beam: &'d words::Beam,
     order: usize,
-    /// `None` for the direction nodes of the mesh, or else the axes by default.
+    /// `None` if it is missing; the error is already reported.
     orientation: Option<&'d At<Vector>>,
 }
 
@@ -118,6 +116,8 @@ impl<'d> Line<'_, 'd> {
         let unused = keys!(self.beam; path, elements, grading, offset_start, offset_end);
         cx.report.reject_unused("a beam made of a group of the mesh", &unused);
         let toward = self.orientation.and_then(|orientation| cx.report.unit("orientation", orientation));
+        // The group is read also without an orientation, whose lack has been reported.
+        let frame = |along: Vec3| frame(&along, &toward.unwrap_or_else(|| Vec3::ith(along.iamin(), 1.0)));
         let segments = cx.groups.take(&self.owner.what, group, false, cx.report)?;
         let first = cx.groups.mesh.first;
         let (inner, _) = lobatto(self.order + 1);
@@ -132,9 +132,7 @@ impl<'d> Line<'_, 'd> {
                 }
             }
             let [x0, x1] = ends.map(|end| cx.nodes.x(end));
-            let directed = segment.toward.map(|node| cx.nodes.x(first + node as usize) - x0);
-            let along = x1 - x0;
-            let Some(frame) = frame(&along, &toward.or(directed).unwrap_or_else(|| default_y(&along))) else {
+            let Some(frame) = frame(x1 - x0) else {
                 parallel += 1;
                 continue;
             };
@@ -165,9 +163,7 @@ impl<'d> Line<'_, 'd> {
         if let Some(release) = &self.beam.release {
             released::release_chains(self.name, group, (release, self.order), &mut made, (self.at, cx))?;
         }
-        if let Some(orientation) = self.orientation {
-            self.check_directions(group, &segments, (toward?, &orientation.span), cx);
-        }
+        self.check_directions(group, &segments, toward?, cx);
         Some(made)
     }
 
@@ -176,7 +172,7 @@ impl<'d> Line<'_, 'd> {
         &self,
         group: &At<String>,
         segments: &[&MeshElement],
-        (toward, place): (Vec3, &Span),
+        toward: Vec3,
         cx: &mut PartContext<'_, 'd>,
     ) {
         let (first, nodes) = (cx.groups.mesh.first, &cx.nodes);
@@ -194,6 +190,7 @@ impl<'d> Line<'_, 'd> {
         }
         if count > 0 {
             let (angle, id, y) = (most.0.to_degrees(), most.1, most.2.map(|x| (x * 1e4).round() / 1e4 + 0.0));
+            let place = self.orientation.map_or(&group.span, |at| &at.span);
             let message = format!(
                 "`orientation` differs from the direction nodes of {count} elements of group `{}`, by {angle:.1} degrees in element {id}",
                 group.value
@@ -241,7 +238,7 @@ impl<'d> Line<'_, 'd> {
         self.offset_ends(&mut path, cx);
         let points = &self.beam.path.as_ref()?.values;
         let lengths = segments(self.owner, points, &path, cx);
-        let frames = frames(points, &path, self.orientation, cx);
+        let frames = self.orientation.and_then(|orientation| frames(points, &path, orientation, cx));
         let counts = elements.and_then(|elements| counts(elements, path.len() - 1, cx))?;
         let gradings = gradings(&self.beam.grading, &counts, cx)?;
         lengths?;
@@ -362,42 +359,30 @@ fn yielding<'d>(
     Some(Some(FibreModel { law, fibres, shear, rule, points }))
 }
 
-/// Section frame of each segment: x along it, y towards the orientation, by default level, z = x × y.
+/// Section frame of each segment: x along it, y towards the orientation, z = x × y.
 fn frames<'d>(
     points: &'d [At<String>],
     path: &[usize],
-    orientation: Option<&At<Vector>>,
+    orientation: &At<Vector>,
     cx: &mut PartContext<'_, 'd>,
 ) -> Option<Vec<Mat3>> {
-    let toward = match orientation {
-        Some(at) => Some((cx.report.unit("orientation", at)?, &at.span)),
-        None => None,
-    };
+    let toward = cx.report.unit("orientation", orientation)?;
     let mut frames = Vec::new();
     for (i, pair) in path.windows(2).enumerate() {
         let along = cx.nodes.x(pair[1]) - cx.nodes.x(pair[0]);
         if along.try_normalize(0.0).is_none() {
             continue;
         }
-        let y = toward.map_or_else(|| default_y(&along), |(y, _)| y);
-        match (frame(&along, &y), toward) {
-            (Some(frame), _) => frames.push(frame),
-            (None, Some((_, place))) => {
-                let message =
-                    format!("`orientation` is parallel to segment `{}` - `{}`", points[i].value, points[i + 1].value);
-                let hint = "it must point to the side, where local y is to lie";
-                cx.report.error_with::<()>(place, message, hint);
-            }
-            (None, None) => {}
-        }
+        let Some(frame) = frame(&along, &toward) else {
+            let message =
+                format!("`orientation` is parallel to segment `{}` - `{}`", points[i].value, points[i + 1].value);
+            let hint = "it must point to the side, where local y is to lie";
+            cx.report.error_with::<()>(&orientation.span, message, hint);
+            continue;
+        };
+        frames.push(frame);
     }
     (frames.len() + 1 == path.len()).then_some(frames)
-}
-
-/// Local y of a beam without an orientation. It is level, so that local z points up; upright beams have it along global y.
-fn default_y(along: &Vec3) -> Vec3 {
-    let level = Vec3::z().cross(along);
-    if level.norm() > UPRIGHT * along.norm() { level } else { Vec3::y() }
 }
 
 /// Section axes: x along a segment, y towards the orientation, z = x × y. `None` where the two are parallel.
