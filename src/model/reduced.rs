@@ -1,8 +1,7 @@
-//! `reduced` of beams and shells: the interface of the part with the rest of the scene, and what cannot be reduced.
+//! `reduced` of beams and shells: the interface of the part with the rest of the scene, and the scenes that are refused.
 //!
-//! A node belongs to the interface where it is a point of the deck, or where another part, a body, a joint, a support, a point load, a damper or
-//! a stop names it. Spread loads and
-//! weight act on inner nodes by the shapes; outputs and expected values follow from these as well.
+//! Points of the deck belong to the interface. So do nodes of other parts, bodies, joints, supports, point loads, dampers and stops. Spread loads
+//! and weight act on inner nodes by the shapes. Outputs and expected values follow from these as well.
 
 use super::data::{LoadOrigin, Model, Node, Part, Reduction};
 use super::plausibility::unused::visit_actors;
@@ -34,13 +33,13 @@ pub(super) fn reductions(model: &mut Model, deck: &Deck, report: &mut Report) {
     }
 }
 
-/// The nodes on which anything but parts of elements and spread loads acts, or of which the analysis asks.
+/// The points of the deck, and the nodes of bodies, constraints, point loads, dampers and stops.
 fn acting_nodes(model: &mut Model) -> BTreeSet<usize> {
     let mut nodes = BTreeSet::new();
     visit_actors(model, &mut |node| {
         nodes.insert(*node);
     });
-    // Results at points of the deck are those that count.
+    // Users look at the points of the deck.
     nodes.extend((0..model.nodes.len()).filter(|&node| model.nodes[node].named));
     let constraints = &model.constraints;
     nodes.extend(constraints.dependents.iter().flat_map(|dependent| [dependent.node, dependent.master]));
@@ -88,7 +87,7 @@ fn reduction(model: &mut Model, part: &DeckPart, acting: &BTreeSet<usize>, repor
         return report.error_with(
             &asked.span,
             message,
-            "give `force_per_area` in place of `pressure`, or leave `reduced` out",
+            "leave `follower` out of the load, or `reduced` out of the part",
         );
     }
     let damping = model.parts[*parts.first()?].own_damping();

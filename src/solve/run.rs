@@ -111,7 +111,10 @@ impl<'a> Run<'a> {
         };
         let mut state = match began {
             Ok(mut state) => {
-                cx.system.recover(&mut state.nodes);
+                // A checkpoint holds inner nodes too.
+                if checkpoint.is_none() {
+                    cx.system.recover(&mut state.nodes);
+                }
                 state
             }
             Err(failure) => return (Outcome::of(failure, cx.model.analysis.begin), None),

@@ -436,7 +436,7 @@ impl WithInner {
 
     fn state(&mut self) -> Vec<Node> {
         let mut nodes = self.random.state(0.2, 1.0);
-        self.of.recover(&self.inner, &mut nodes);
+        self.inner.recover(&self.of, &mut nodes);
         nodes
     }
 
@@ -448,7 +448,7 @@ impl WithInner {
             node.x += t * v + 0.5 * t * t * a;
             node.rotation = exp(&(t * node.omega + 0.5 * t * t * node.alpha)) * node.rotation;
         }
-        self.of.recover(&self.inner, &mut moved);
+        self.inner.recover(&self.of, &mut moved);
         moved
     }
 }
@@ -491,15 +491,15 @@ fn forces_on_inner_nodes_do_their_work_on_the_superelement() {
             .collect();
         let mut F = vec![[0.0; 6]; nodes.len()];
         with.own.iter().zip(&forces).for_each(|(&node, force)| F[node] = (*force).into());
-        with.of.transfer(&with.inner, &nodes, &mut F);
+        with.inner.transfer(&with.of, &nodes, &mut F);
         assert!(with.own.iter().all(|&node| F[node] == [0.0; 6]));
         for (node, dof) in with.random.dofs().into_iter().filter(|(node, _)| *node < with.own[0]) {
             let mut motions = vec![Vec6::zeros(); nodes.len()];
             motions[node][dof] = 1.0;
-            with.of.carry(&with.inner, &nodes, &mut motions);
+            with.inner.carry(&with.of, &nodes, &mut motions);
             let at = [-h, h].map(|h| {
                 let mut nodes = moved(&nodes, (node, dof), h);
-                with.of.recover(&with.inner, &mut nodes);
+                with.inner.recover(&with.of, &mut nodes);
                 nodes
             });
             let mut work = 0.0;
@@ -535,7 +535,7 @@ fn inner_nodes_turn_with_the_whole() {
                 ..*node
             };
         }
-        with.of.recover(&with.inner, &mut nodes);
+        with.inner.recover(&with.of, &mut nodes);
         for node in with.own {
             let (now, then) = (&nodes[node], &before[node]);
             // Rounding of coordinates of 10.

@@ -122,8 +122,9 @@ fn spread_loads_act_by_the_shapes() {
     });
     let start: Vec<f64> = read_deck(&text).nodes.iter().flat_map(|node| [node.x.x, node.x.y, node.x.z]).collect();
     let moved = largest_difference(&exact, &start);
-    let falls = errors[2] < 0.2 * errors[1] && errors[1] < 0.5 * errors[0];
-    assert!(falls && errors[2] < 1e-3 * moved, "{errors:?} of {moved}");
+    // Measured 2e-3, 4e-5 and 1.3e-5 of the deflection.
+    let falls = errors[2] < 0.5 * errors[1] && errors[1] < 0.1 * errors[0];
+    assert!(falls && errors[2] < 1e-4 * moved, "{errors:?} of {moved}");
 }
 
 fn frequencies(text: &str, modes: usize) -> Vec<f64> {
@@ -187,10 +188,8 @@ fn small_motion_converges_to_that_of_the_whole_part() {
     };
     let moved = largest(&full, &|_| full[0].clone());
     let errors = [0, 2, 10].map(|modes| largest(&rows(&reduced(&text, modes)), &|k| full[k].clone()) / moved);
-    assert!(
-        moved > 1e-7 && errors[1] < 0.5 * errors[0] && errors[2] < 0.5 * errors[1] && errors[2] < 1e-3,
-        "{errors:?} {moved}"
-    );
+    // Measured 5.8e-4, 5.4e-4 and 8.4e-6: the first two modes bend across the load.
+    assert!(moved > 1e-7 && errors[1] < errors[0] && errors[2] < 0.1 * errors[1] && errors[2] < 1e-4, "{errors:?}");
 }
 
 fn plate(end: f64, step: f64, motion: &str) -> String {
@@ -238,31 +237,36 @@ fn a_tumbling_part_keeps_its_momenta() {
     assert!(worst(6..7) < 1e-3, "{:e}", worst(6..7));
 }
 
-/// Stages share an interface: an edge that a later stage holds moves on its own from the start, and the plate swings back from its bent state.
+/// Stages share an interface: an edge that a later stage holds moves on its own from the start. Bent and released, the plate moves as without
+/// reduction.
 #[test]
 fn stages_share_an_interface() {
     let text = format!(
-        "{}[[supports]]\nat = \"plate.edge4\"\nfix = \"all\"\n\
+        "{PLATE}[[supports]]\nat = \"plate.edge4\"\nfix = \"all\"\n\
          [[stages]]\nname = \"bend\"\nkind = \"static\"\nduration = 1.0\ntime_step = 0.5\n\
-         [[stages]]\nname = \"swing\"\nkind = \"dynamic\"\nduration = 0.2\ntime_step = 1e-3\n\
+         [[stages]]\nname = \"swing\"\nkind = \"dynamic\"\nduration = 0.1\ntime_step = 1e-3\n\
          [[loads]]\nat = [\"b\", \"c\"]\nforce = [0.0, 0.0, -0.2]\nstages = [\"bend\"]\n\
-         [[supports]]\nat = \"plate.edge2\"\nfix = [\"ry\"]\nstages = [\"swing\"]\n",
-        reduced(PLATE, 10)
+         [[supports]]\nat = \"plate.edge2\"\nfix = [\"ry\"]\nstages = [\"swing\"]\n"
     );
-    let source = Source::new("deck.toml", text.as_str(), &[]);
-    let models = read_stages(&source);
+    let swing = |text: &str| {
+        let mut swing: Vec<f64> = Vec::new();
+        let done = run_source(&Source::new("deck.toml", text, &[]), &mut |frame| {
+            let tip = frame.model.nodes.iter().position(|node| node.label == "b").expect("b");
+            swing.push(frame.state.nodes[tip].x.z);
+            Vec::new()
+        });
+        assert!(matches!(done.outcome, Outcome::Done), "{:?}", done.outcome);
+        swing
+    };
+    let few = reduced(&text, 10);
+    let models = read_stages(&Source::new("deck.toml", few.as_str(), &[]));
     // Both edges have five nodes.
     assert!(models.len() == 2 && models.iter().all(|model| model.reductions[0].interface.len() == 10));
-    let mut swing: Vec<f64> = Vec::new();
-    let done = run_source(&source, &mut |frame| {
-        let tip = frame.model.nodes.iter().position(|node| node.label == "b").expect("b");
-        swing.push(frame.state.nodes[tip].x.z);
-        Vec::new()
-    });
-    assert!(matches!(done.outcome, Outcome::Done), "{:?}", done.outcome);
-    let most = swing.iter().fold(0.0f64, |most, z| most.max(*z));
-    let bent = swing.iter().fold(0.0f64, |least, z| least.min(*z));
-    assert!(bent < -1e-4 && most > -0.5 * bent && most < -1.5 * bent, "{bent} {most}");
+    let (full, few) = (swing(&text), swing(&few));
+    let size = full.iter().fold(0.0f64, |most, z| most.max(z.abs()));
+    let off = largest_difference(&full, &few);
+    // Modes beyond the tenth.
+    assert!(full.len() == few.len() && size > 1e-4 && off < 0.02 * size, "{off:e} of {size:e}");
 }
 
 /// What the reader says of a deck.
@@ -287,7 +291,7 @@ fn what_shapes_do_not_have_is_refused() {
     let arm = reduced(ARM, 5);
     let yielding = arm
         .replace("model = \"elastic\"\n", "model = \"elastic-plastic\"\nyield_stress = 2e8\nhardening_modulus = 1e9\n");
-    let spread = "[[loads]]\npart = \"plate\"\npressure = 10.0\n[[supports]]\nat = \"plate.edge1\"\nfix = \"all\"\n";
+    let spread = "[[loads]]\npart = \"plate\"\npressure = 10.0\nfollower = true\n[[supports]]\nat = \"plate.edge1\"\nfix = \"all\"\n";
     let cases = [
         (format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = 5\nrigid = true")), "`rigid` and `reduced`"),
         (format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = 2.5")), "a whole number of modes"),

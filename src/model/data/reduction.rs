@@ -4,7 +4,7 @@ use super::loading::OwnDamping;
 use mechanics::elements::superelement::SuperelementData;
 use std::sync::Arc;
 
-/// Parts that are reduced together: elements on inner nodes, in whose place a superelement on the interface acts.
+/// Parts with a common superelement, which acts on the interface in place of their elements.
 #[derive(Debug, Clone)]
 pub struct Reduction {
     /// The deck's name.
@@ -34,7 +34,7 @@ pub struct Reduction {
 pub struct ReducedPart {
     /// The superelement: interface and amplitudes.
     pub matrices: SuperelementData,
-    /// The shapes: six rows for each inner node, over the degrees of freedom of the superelement; row-major.
+    /// The shapes: for each degree of freedom of the superelement six numbers of each inner node; column-major.
     pub shapes: Arc<[f64]>,
     /// Frequencies of the modes with a fixed interface, ascending.
     pub frequencies: Vec<f64>,

@@ -1,8 +1,8 @@
 //! Reduced parts: their stiffness and mass over the motions of the interface and modes with a fixed interface.
 //!
 //! The static shapes Ψ are the motions of inner nodes, without inertia, by unit motions of the interface; the modes φ have a fixed interface.
-//! With Φ = [Ψ φ] the matrices are Φᵀ K Φ and Φᵀ M Φ, which have the rigid motions, the static stiffness and the mass of the part exactly
-//! (R. R. Craig, M. C. C. Bampton, AIAA J. 6 (1968) 1313-1319). K and M are those of the part at t = 0, without loads.
+//! With Φ = [Ψ φ] the matrices are Φᵀ K Φ and Φᵀ M Φ (R. R. Craig, M. C. C. Bampton, AIAA J. 6 (1968) 1313-1319). They keep the rigid motions,
+//! the static stiffness and the mass of the part. K and M are those of the part at t = 0, without loads.
 
 use super::fault::ModesFault;
 use super::linearized::Linearized;
@@ -70,8 +70,8 @@ fn other_velocities(model: &Model, index: usize, made: &ReducedPart) -> Option<D
     let largest = of.inner.iter().map(|&node| model.nodes[node].v.norm()).fold(0.0, f64::max);
     let differs = |(k, &node): (usize, &usize)| {
         let row = |axis: usize| -> f64 {
-            let shape = &made.shapes[(6 * k + axis) * size..(6 * k + axis + 1) * size];
-            shape.iter().zip(&at_interface).map(|(shape, v)| shape * v).sum()
+            let shape = made.shapes.iter().skip(6 * k + axis).step_by(6 * of.inner.len());
+            shape.zip(&at_interface).map(|(shape, v)| shape * v).sum()
         };
         (model.nodes[node].v - Vec3::new(row(0), row(1), row(2))).norm() > CARRIED * largest
     };
@@ -278,7 +278,7 @@ impl Shapes<'_> {
             stiffness[(k, k)] = square * mass[(k, k)];
         }
         if of.interface.len() == 1 {
-            // One node moves the part rigidly: what is left is rounding.
+            // One node moves the part rigidly, so its stiffness is rounding.
             stiffness.view_mut((0, 0), (placed, placed)).fill(0.0);
         }
         let has_mass = total > 0.0;
@@ -296,8 +296,10 @@ impl Shapes<'_> {
             mass: made.mass.as_ref().map_or_else(|| Arc::from([]), entries),
             damping: Arc::from([]),
         };
-        let rows = of.inner.iter().flat_map(|&node| (0..6).map(move |dof| (node, dof)));
-        let shapes = rows.flat_map(|(node, dof)| self.columns.iter().map(move |column| column[node][dof])).collect();
+        let of_column = |column: &Vec<Vec6>| {
+            of.inner.iter().flat_map(|&node| column[node].iter().copied().collect::<Vec<f64>>()).collect::<Vec<f64>>()
+        };
+        let shapes = self.columns.iter().flat_map(of_column).collect();
         let frequencies = modes.kept.iter().map(|(square, _)| square.max(0.0).sqrt() / TAU).collect();
         Ok(ReducedPart { matrices, shapes, frequencies, next: modes.next, replaced: self.at.unknowns() })
     }

@@ -10,7 +10,6 @@ use model::{Model, Reduction};
 use std::sync::Arc;
 
 /// The nodes inside of a reduced part, with the superelement that they follow.
-#[derive(Clone)]
 pub struct FollowingNodes {
     element: Arc<FloatingElement>,
     inner: InnerNodes,
@@ -35,22 +34,22 @@ impl FollowingNodes {
 
     /// Writes their motion from that of the superelement.
     pub fn recover(&self, nodes: &mut [Node]) {
-        self.element.recover(&self.inner, nodes);
+        self.inner.recover(&self.element, nodes);
     }
 
     /// Writes their small motions from those of the superelement.
     pub fn carry(&self, nodes: &[Node], motions: &mut [Vec6]) {
-        self.element.carry(&self.inner, nodes, motions);
+        self.inner.carry(&self.element, nodes, motions);
     }
 
     /// Moves forces on them to the superelement.
     pub fn transfer(&self, nodes: &[Node], F: &mut [Force]) {
-        self.element.transfer(&self.inner, nodes, F);
+        self.inner.transfer(&self.element, nodes, F);
     }
 
     /// The largest rotation of one of them in the frame, in radians.
     pub fn rotation(&self, nodes: &[Node]) -> f64 {
-        self.element.inner_rotation(&self.inner, nodes)
+        self.inner.rotation(&self.element, nodes)
     }
 }
 

@@ -86,7 +86,7 @@ impl ReducedMass {
         for (own, &node) in memory.nodes.iter_mut().zip(&self.nodes[..self.acting]) {
             *own = nodes[node];
         }
-        self.element.recover(&self.inner, &mut memory.nodes);
+        self.inner.recover(&self.element, &mut memory.nodes);
         memory.F.fill([0.0; 6]);
         memory
     }
@@ -94,7 +94,7 @@ impl ReducedMass {
     /// Moves forces to the superelement, and adds them to those of the scene.
     fn pass_on(&self, memory: &mut Memory, factor: f64, F: &mut [Force]) {
         let Memory { nodes, F: own, .. } = memory;
-        self.element.transfer(&self.inner, nodes, own);
+        self.inner.transfer(&self.element, nodes, own);
         for (&node, force) in self.nodes[..self.acting].iter().zip(own) {
             F[node].iter_mut().zip(force).for_each(|(sum, f)| *sum += factor * *f);
         }
@@ -122,7 +122,7 @@ impl ReducedMass {
         for (own, &node) in memory.motions.iter_mut().zip(&self.nodes[..self.acting]) {
             *own = motions[node];
         }
-        self.element.carry(&self.inner, &memory.nodes, &mut memory.motions);
+        self.inner.carry(&self.element, &memory.nodes, &mut memory.motions);
         for inertia in &self.inertias {
             let motion = &memory.motions[inertia.node];
             let f =

@@ -10,16 +10,18 @@ use crate::elements::Force;
 use crate::state::Node;
 use base::math::rotation::{exp, inverse_tangent, matrix, rates, vector_rates};
 use base::math::{Mat3, Vec3, Vec6, angular, linear, skew, stack};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The nodes inside of a reduced part.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct InnerNodes {
     nodes: Vec<usize>,
     /// Their positions relative to the mean of the nodes of the interface, at t = 0.
     Y: Vec<Vec3>,
-    /// Φ: six rows for each, over the degrees of freedom of the superelement; row-major.
+    /// Φ: for each degree of freedom of the superelement six numbers of each node; column-major.
     shapes: Arc<[f64]>,
+    /// Products with Φ, or forces.
+    memory: Mutex<[Vec<f64>; 3]>,
 }
 
 /// The motion of the frame, components along its axes.
@@ -34,7 +36,9 @@ impl InnerNodes {
     /// The inner nodes of the reduced part `of`; `x` are the positions of all nodes at t = 0.
     pub fn new(of: &FloatingElement, nodes: &[usize], x: &[Vec3], shapes: Arc<[f64]>) -> InnerNodes {
         let mean = of.x[0] - of.Y[0];
-        InnerNodes { nodes: nodes.to_vec(), Y: nodes.iter().map(|&node| x[node] - mean).collect(), shapes }
+        let memory = std::array::from_fn(|_| vec![0.0; 6 * nodes.len()]);
+        let Y = nodes.iter().map(|&node| x[node] - mean).collect();
+        InnerNodes { nodes: nodes.to_vec(), Y, shapes, memory: Mutex::new(memory) }
     }
 
     /// The nodes.
@@ -42,57 +46,69 @@ impl InnerNodes {
         &self.nodes
     }
 
-    /// The displacement and the rotation vector of an inner node for the values `q` of the superelement.
-    fn motion(&self, inner: usize, q: &[f64]) -> [Vec3; 2] {
-        let row = |k: usize| {
-            let start = (6 * inner + k) * q.len();
-            self.shapes[start..start + q.len()].iter().zip(q).map(|(shape, q)| shape * q).sum::<f64>()
-        };
-        [0, 3].map(|at| Vec3::new(row(at), row(at + 1), row(at + 2)))
+    fn memory(&self) -> MutexGuard<'_, [Vec<f64>; 3]> {
+        self.memory.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Adds the values of the superelement that a force and a moment on an inner node work on.
-    fn add_work(&self, inner: usize, [f, m]: [&Vec3; 2], g: &mut [f64]) {
-        for (k, force) in f.iter().chain(m.iter()).enumerate().filter(|(_, force)| **force != 0.0) {
-            let start = (6 * inner + k) * g.len();
-            let row = &self.shapes[start..start + g.len()];
-            g.iter_mut().zip(row).for_each(|(g, shape)| *g += shape * force);
+    /// Writes Φ times values of the superelement: displacement and rotation vector of each node.
+    fn multiply<const N: usize>(&self, values: [&[f64]; N], products: &mut [Vec<f64>]) {
+        products[..N].iter_mut().for_each(|product| product.fill(0.0));
+        for (k, column) in self.shapes.chunks_exact((6 * self.nodes.len()).max(1)).enumerate() {
+            for (product, values) in products.iter_mut().zip(values) {
+                product.iter_mut().zip(column).for_each(|(sum, shape)| *sum += values[k] * shape);
+            }
+        }
+    }
+
+    /// Writes Φᵀ times forces and moments on the nodes.
+    fn multiply_transposed(&self, forces: &[f64], products: &mut [f64]) {
+        for (product, column) in products.iter_mut().zip(self.shapes.chunks_exact(forces.len().max(1))) {
+            *product = dot(column, forces);
         }
     }
 }
 
-impl FloatingElement {
+/// The product of two vectors, whose sums by six run side by side.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 6];
+    for (a, b) in a.chunks_exact(6).zip(b.chunks_exact(6)) {
+        (0..6).for_each(|i| sums[i] += a[i] * b[i]);
+    }
+    sums.iter().sum()
+}
+
+impl FrameMotion {
     /// Places the frame and writes q, and its rates and accelerations into the first two vectors.
-    fn frame_motion(&self, nodes: &[Node], scratch: &mut Scratch) -> FrameMotion {
+    fn new(of: &FloatingElement, nodes: &[Node], scratch: &mut Scratch) -> FrameMotion {
         let Scratch { frame, q, vectors: [w, a, ..], .. } = scratch;
-        self.place(nodes, frame);
-        self.displacements(nodes, frame, q);
-        let spin = self.velocities(nodes, frame, w);
-        for (i, &node) in self.data.nodes[..self.data.interface].iter().enumerate() {
+        of.place(nodes, frame);
+        of.displacements(nodes, frame, q);
+        let spin = of.velocities(nodes, frame, w);
+        for (i, &node) in of.data.nodes[..of.data.interface].iter().enumerate() {
             set_three(a, 6 * i, &frame.R.tr_mul(&nodes[node].a));
             set_three(a, 6 * i + 3, &frame.R.tr_mul(&nodes[node].alpha));
         }
-        self.each_amplitude(|k, i| a[k] = nodes[self.data.nodes[i]].a.x);
-        let count = self.data.interface as f64;
-        let mean_of = |of: &[f64]| (0..self.data.interface).map(|i| three(of, 6 * i)).sum::<Vec3>() / count;
+        of.each_amplitude(|k, i| a[k] = nodes[of.data.nodes[i]].a.x);
+        let count = of.data.interface as f64;
+        let mean_of = |values: &[f64]| (0..of.data.interface).map(|i| three(values, 6 * i)).sum::<Vec3>() / count;
         let mean = [mean_of(w), mean_of(a)];
         // Σ ½ Y×z + λ axial(E) stays zero, and so do its derivatives: the second gives the angular acceleration.
         let mut moment = Vec3::zeros();
-        for (i, Y) in self.Y.iter().enumerate() {
+        for (i, Y) in of.Y.iter().enumerate() {
             let (z, omega) = (&frame.z[i], three(w, 6 * i + 3));
             let z_rate = three(w, 6 * i) - mean[0] - spin.cross(z);
             let relative = omega - spin;
             let second = three(a, 6 * i) - mean[1] - 2.0 * spin.cross(&z_rate) - spin.cross(&spin.cross(z));
             let turning = three(a, 6 * i + 3) - spin.cross(&omega);
             let S = skew(&relative);
-            moment += 0.5 * Y.cross(&second) + self.turning * (frame.H[i] * turning + axial(&(S * S * frame.E[i])));
+            moment += 0.5 * Y.cross(&second) + of.turning * (frame.H[i] * turning + axial(&(S * S * frame.E[i])));
             set_three(w, 6 * i, &z_rate);
             set_three(w, 6 * i + 3, &relative);
             set_three(a, 6 * i, &second);
             set_three(a, 6 * i + 3, &turning);
         }
         let spin_rate = frame.inverse * moment;
-        for i in 0..self.data.interface {
+        for i in 0..of.data.interface {
             add_three(a, 6 * i, &-spin_rate.cross(&frame.z[i]));
             let (rate, second) = vector_rates(&frame.psi[i], &three(w, 6 * i + 3), &(three(a, 6 * i + 3) - spin_rate));
             set_three(w, 6 * i + 3, &rate);
@@ -100,16 +116,20 @@ impl FloatingElement {
         }
         FrameMotion { spin: [spin, spin_rate], mean }
     }
+}
 
+impl InnerNodes {
     /// Writes the motion of the inner nodes.
-    pub fn recover(&self, inner: &InnerNodes, nodes: &mut [Node]) {
-        let scratch = &mut *self.scratch();
-        let FrameMotion { spin: [spin, spin_rate], mean } = self.frame_motion(nodes, scratch);
+    pub fn recover(&self, of: &FloatingElement, nodes: &mut [Node]) {
+        let scratch = &mut *of.scratch();
+        let FrameMotion { spin: [spin, spin_rate], mean } = FrameMotion::new(of, nodes, scratch);
         let Scratch { frame, q, vectors: [q_rate, q_second, ..], .. } = scratch;
-        let (first, turned) = (nodes[self.data.nodes[0]], quaternion(&frame.R));
-        for (k, (&node, Y)) in inner.nodes.iter().zip(&inner.Y).enumerate() {
+        let products = &mut *self.memory();
+        self.multiply([q.as_slice(), q_rate.as_slice(), q_second.as_slice()], products);
+        let (first, turned) = (nodes[of.data.nodes[0]], quaternion(&frame.R));
+        for (k, (&node, Y)) in self.nodes.iter().zip(&self.Y).enumerate() {
             let [[u, psi], [u_rate, psi_rate], [u_second, psi_second]] =
-                [&*q, &*q_rate, &*q_second].map(|of| inner.motion(k, of));
+                products.each_ref().map(|values| [three(values, 6 * k), three(values, 6 * k + 3)]);
             let z = Y + u;
             let (turn, turn_rate) = rates(&psi, &psi_rate, &psi_second);
             let v = mean[0] + spin.cross(&z) + u_rate;
@@ -124,72 +144,75 @@ impl FloatingElement {
     }
 
     /// Writes the small motions of the inner nodes that follow from those of the superelement.
-    pub fn carry(&self, inner: &InnerNodes, nodes: &[Node], motions: &mut [Vec6]) {
-        let Scratch { frame, q, vectors: [w, ..], .. } = &mut *self.scratch();
-        self.place(nodes, frame);
-        self.displacements(nodes, frame, q);
-        for (i, &node) in self.data.nodes[..self.data.interface].iter().enumerate() {
+    pub fn carry(&self, of: &FloatingElement, nodes: &[Node], motions: &mut [Vec6]) {
+        let Scratch { frame, q, vectors: [w, ..], .. } = &mut *of.scratch();
+        of.place(nodes, frame);
+        of.displacements(nodes, frame, q);
+        for (i, &node) in of.data.nodes[..of.data.interface].iter().enumerate() {
             set_three(w, 6 * i, &frame.R.tr_mul(&linear(&motions[node])));
             set_three(w, 6 * i + 3, &frame.R.tr_mul(&angular(&motions[node])));
         }
-        self.each_amplitude(|k, i| w[k] = motions[self.data.nodes[i]][0]);
-        let phi = self.turn(frame, w);
-        let mean = (0..self.data.interface).map(|i| three(w, 6 * i)).sum::<Vec3>() / self.data.interface as f64;
-        for i in 0..self.data.interface {
+        of.each_amplitude(|k, i| w[k] = motions[of.data.nodes[i]][0]);
+        let phi = of.turn(frame, w);
+        let mean = (0..of.data.interface).map(|i| three(w, 6 * i)).sum::<Vec3>() / of.data.interface as f64;
+        for i in 0..of.data.interface {
             let relative = three(w, 6 * i) - mean - phi.cross(&frame.z[i]);
             let turn = inverse_tangent(&frame.psi[i], &(three(w, 6 * i + 3) - phi));
             set_three(w, 6 * i, &relative);
             set_three(w, 6 * i + 3, &turn);
         }
-        for (k, (&node, Y)) in inner.nodes.iter().zip(&inner.Y).enumerate() {
-            let ([u, psi], [du, dpsi]) = (inner.motion(k, q), inner.motion(k, w));
+        let products = &mut *self.memory();
+        self.multiply([q.as_slice(), w.as_slice()], products);
+        for (k, (&node, Y)) in self.nodes.iter().zip(&self.Y).enumerate() {
+            let [[u, psi], [du, dpsi], _] =
+                products.each_ref().map(|values| [three(values, 6 * k), three(values, 6 * k + 3)]);
             let turn = rates(&psi, &dpsi, &Vec3::zeros()).0;
             motions[node] = stack(&(frame.R * (mean + phi.cross(&(Y + u)) + du)), &(frame.R * (phi + turn)));
         }
     }
 
     /// Moves forces on inner nodes to the superelement.
-    pub fn transfer(&self, inner: &InnerNodes, nodes: &[Node], F: &mut [Force]) {
-        if inner.nodes.iter().all(|&node| F[node] == [0.0; 6]) {
+    pub fn transfer(&self, of: &FloatingElement, nodes: &[Node], F: &mut [Force]) {
+        if self.nodes.iter().all(|&node| F[node] == [0.0; 6]) {
             return;
         }
-        let Scratch { frame, q, vectors: [g, ..], .. } = &mut *self.scratch();
-        self.place(nodes, frame);
-        self.displacements(nodes, frame, q);
-        g.fill(0.0);
+        let Scratch { frame, q, vectors: [g, ..], .. } = &mut *of.scratch();
+        of.place(nodes, frame);
+        of.displacements(nodes, frame, q);
+        let [moved, forces, _] = &mut *self.memory();
+        self.multiply([q.as_slice()], std::slice::from_mut(moved));
         let (mut sum, mut h) = (Vec3::zeros(), Vec3::zeros());
-        for (k, (&node, Y)) in inner.nodes.iter().zip(&inner.Y).enumerate() {
+        for (k, (&node, Y)) in self.nodes.iter().zip(&self.Y).enumerate() {
             let force = std::mem::replace(&mut F[node], [0.0; 6]);
-            if force == [0.0; 6] {
-                continue;
-            }
-            let [u, psi] = inner.motion(k, q);
+            let (u, psi) = (three(moved, 6 * k), three(moved, 6 * k + 3));
             let [f, m] = [three(&force, 0), three(&force, 3)].map(|force| frame.R.tr_mul(&force));
-            inner.add_work(k, [&f, &rates(&-psi, &m, &Vec3::zeros()).0], g);
+            set_three(forces, 6 * k, &f);
+            set_three(forces, 6 * k + 3, &rates(&-psi, &m, &Vec3::zeros()).0);
             sum += f;
             h += (Y + u).cross(&f) + m;
         }
-        let at_nodes = (0..self.data.interface).map(|i| three(g, 6 * i)).sum::<Vec3>();
-        let mean = (sum - at_nodes) / self.data.interface as f64;
-        for i in 0..self.data.interface {
+        self.multiply_transposed(forces, g);
+        let at_nodes = (0..of.data.interface).map(|i| three(g, 6 * i)).sum::<Vec3>();
+        let mean = (sum - at_nodes) / of.data.interface as f64;
+        for i in 0..of.data.interface {
             let m = inverse_tangent(&-frame.psi[i], &three(g, 6 * i + 3));
             h -= frame.z[i].cross(&three(g, 6 * i)) + m;
             set_three(g, 6 * i + 3, &m);
             add_three(g, 6 * i, &mean);
         }
-        self.add_turning(frame, &(frame.inverse * h), g);
+        of.add_turning(frame, &(frame.inverse * h), g);
         g.iter_mut().for_each(|g| *g = -*g);
-        self.subtract(frame, g, F);
+        of.subtract(frame, g, F);
     }
 
     /// The largest rotation of an inner node in the frame, in radians.
-    pub fn inner_rotation(&self, inner: &InnerNodes, nodes: &[Node]) -> f64 {
-        let Scratch { frame, .. } = &mut *self.scratch();
-        self.place(nodes, frame);
+    pub fn rotation(&self, of: &FloatingElement, nodes: &[Node]) -> f64 {
+        let Scratch { frame, .. } = &mut *of.scratch();
+        of.place(nodes, frame);
         let turn = |&node: &usize| {
             let E: Mat3 = frame.R.tr_mul(&matrix(&nodes[node].rotation));
             base::math::rotation::log(&quaternion(&E)).norm()
         };
-        inner.nodes.iter().map(turn).fold(0.0, f64::max)
+        self.nodes.iter().map(turn).fold(0.0, f64::max)
     }
 }
