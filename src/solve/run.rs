@@ -110,16 +110,11 @@ impl<'a> Run<'a> {
             (None, None) => start(cx, ws),
         };
         let mut state = match began {
-            Ok(mut state) => {
-                // A checkpoint holds inner nodes too.
-                if checkpoint.is_none() {
-                    cx.system.recover(&mut state.nodes);
-                }
-                state
-            }
+            Ok(state) => state,
             Err(failure) => return (Outcome::of(failure, cx.model.analysis.begin), None),
         };
         if checkpoint.is_none() {
+            cx.system.recover(&mut state.nodes);
             recorder.begin(cx, &state, handover.as_ref());
         }
         let samples = Samples::new(&schedule.samples);
