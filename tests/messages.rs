@@ -598,6 +598,23 @@ fn links_that_yield() {
     assert_snapshot!("links_that_yield", portal_and(&links.join("\n")));
 }
 
+/// Modal damping.
+#[test]
+fn modal_damping() {
+    let damping = |text: &str| portal_and(&format!("[damping]\nmodal = {{ {text} }}\n"));
+    assert_eq!(damping("ratio = 0.02, modes = 5").trim(), "");
+    assert_eq!(damping("ratios = [0.02, 0.03]").trim(), "");
+    assert_snapshot!("modal_damping_without_modes", damping("ratio = 0.02"));
+    assert_snapshot!("modal_damping_too_strong", damping("ratio = 2.0, modes = 5"));
+    assert_snapshot!("modal_damping_of_all", damping("ratio = 0.02, modes = 100000"));
+    assert_snapshot!("modal_damping_twice", damping("ratio = 0.02, ratios = [0.02, -0.1]"));
+    let explicit = damping("ratio = 0.02, modes = 5 }\n[integrator]\nscheme = \"central-difference\"\n# {");
+    assert!(explicit.contains("`modal` damping does not go with explicit schemes"), "{explicit}");
+    let modal = [("kind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4\n", "kind = \"modal\"\n")];
+    let text = "[damping]\nmodal = { ratio = 0.02, modes = 5 }\n[analysis]";
+    assert_snapshot!("modal_damping_of_modes", portal(&[modal[0], ("[analysis]", text)]));
+}
+
 /// Hysteresis that falls, and that pinches.
 #[test]
 fn hysteresis_that_deteriorates() {

@@ -45,9 +45,23 @@ pub struct Damping {
     /// Rayleigh's beta in C = alpha M + beta K, a time, 0 or more. It acts on strain rates of beams, bars and shells, and on springs of
     /// links and joints, not on stops, friction and contacts. Default: 0. Alias: `beta`.
     pub stiffness_factor: Maybe<f64>,
+    /// Damping of the first modes, besides, in dynamic analyses by implicit schemes. They are the modes of the drawn state without loads.
+    pub modal: Maybe<Table<ModalDamping>>,
     /// Dampers from nodes to the ground.
     #[serde(default)]
     pub nodal: Vec<At<Table<NodalDamping>>>,
+}
+
+/// Damping by modes: C = Σ 2 ζ ω M φ φᵀ M. Motions across these modes are not damped by it.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ModalDamping {
+    /// Part ζ of critical damping of each mode, 0 to below 1; with `modes`.
+    pub ratio: Maybe<f64>,
+    /// Number of modes with that ratio, 1 or more.
+    pub modes: Maybe<u64>,
+    /// Instead of both, ζ of each mode, the lowest first.
+    pub ratios: Maybe<Vec<At<f64>>>,
 }
 
 /// A damper from a node to the ground.

@@ -6,9 +6,11 @@ use super::places::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::stages::CurrentStage;
-use super::values::vec3_or_zero;
+use super::values::{keys, vec3_or_zero};
+use base::diagnostic::{At, Span};
 use base::math::Vec3;
 use deck::Deck;
+use deck::words::Table;
 use mechanics::amplitude::Amplitude;
 
 /// Accelerations of all masses: gravity with the index of its amplitude, and the accelerations of the ground.
@@ -84,5 +86,51 @@ pub(super) fn damping<'d>(scene: &Scene<'d>, topology: &Topology, report: &mut R
             }
         }
     }
-    Damping { mass_factor, stiffness_factor, nodal, ..Damping::default() }
+    let modal = damping.modal.as_ref().map_or_else(Vec::new, |table| modal(scene, table, report));
+    Damping { mass_factor, stiffness_factor, modal, nodal, ..Damping::default() }
+}
+
+/// ζ of each damped mode.
+fn modal<'d>(
+    scene: &Scene<'d>,
+    At { value: table, span: place }: &'d At<Table<deck::environment::ModalDamping>>,
+    report: &mut Report<'d>,
+) -> Vec<f64> {
+    /// So many modes take seconds to find, and as long as the other forces in each step.
+    const MOST: usize = 1000;
+    let is_sound = |ratio: f64| (0.0..1.0).contains(&ratio);
+    let out_of_range = |report: &mut Report, span: &Span| {
+        let hint = "a part of critical damping, such as 0.02";
+        report.error_with::<()>(span, "a modal damping ratio must be 0 or more, and below 1", hint);
+    };
+    if scene.analysis.damps_modes() || scene.analysis.has_modes() && scene.stage.is_none() {
+        let hint = "responses and damped modes take alpha, beta and dampers";
+        report.error_with::<()>(place, "`modal` damping acts in dynamic analyses", hint);
+    }
+    if let Some(ratios) = &table.ratios {
+        report.reject_unused("a list of `ratios`", &keys!(table; ratio, modes));
+        if ratios.is_empty() {
+            report.error_with::<()>(&ratios.span, "`ratios` is empty", "give one for each mode, such as [0.02, 0.03]");
+        }
+        for ratio in ratios.iter().filter(|ratio| !is_sound(ratio.value)) {
+            out_of_range(report, &ratio.span);
+        }
+        return ratios.iter().map(|ratio| ratio.value).collect();
+    }
+    let owner = Owner::new("`modal`", place);
+    let ratio = report.require(&owner, "ratio", &table.ratio);
+    report.require(&owner, "modes", &table.modes);
+    let mut modes = report.count("modes", &table.modes, 0);
+    if let (Some(given), true) = (&table.modes, modes > MOST) {
+        let hint = "damp the higher ones by `stiffness_factor`, or by the scheme";
+        report.error_with::<()>(&given.span, format!("`modal` damping takes at most {MOST} modes"), hint);
+        modes = MOST;
+    }
+    match ratio {
+        Some(ratio) if !is_sound(ratio.value) => {
+            out_of_range(report, &ratio.span);
+            Vec::new()
+        }
+        ratio => vec![ratio.map_or(0.0, |ratio| ratio.value); modes],
+    }
 }

@@ -4,10 +4,12 @@ use super::context::Context;
 use super::control::{Controller, Schedule};
 use super::derived::Wanted;
 use super::energy_growth::checks_energy_growth;
+use super::failure::Failure;
 use super::frame::Observer;
 use super::global_error::{StepError, Unseen};
 use super::handover::{EndedStage, Handover, hand_over};
 use super::march::{March, RunPosition};
+use super::modes::{ModesFault, find_damped};
 use super::modes_at_end;
 use super::outcome::{Counts, Outcome};
 use super::recorder::Recorder;
@@ -15,7 +17,7 @@ use super::sample::Samples;
 use super::start::start;
 use super::start_of_stage::start_stage;
 use super::stop_watch::StopWatch;
-use super::warning::{Remark, Warnings};
+use super::warning::{Remark, Warning, Warnings};
 use super::workspace::Workspace;
 use crate::plan::Plan;
 use crate::system::System;
@@ -32,6 +34,13 @@ pub(super) struct SingleRun;
 
 impl Keep for SingleRun {
     fn keep(&mut self, _: &mut Snapshot) {}
+}
+
+/// The warning of a scene with fewer modes than are to be damped.
+fn fewer(found: usize, wanted: usize) -> String {
+    format!(
+        "`modal` damping asks for {wanted} modes, and the scene has {found}: all are damped. Give `modes` = {found}"
+    )
 }
 
 /// The error that a checkpoint is not one of this scene.
@@ -100,6 +109,14 @@ impl<'a> Run<'a> {
     ) -> (Outcome, Option<State>) {
         let Run { context: cx, workspace: ws, controller, recorder, handover, stop_watch, stop, checkpoint, .. } = self;
         let mut checkpoint = checkpoint.take();
+        if cx.system.modal_damping().lacks_modes() {
+            match find_damped((cx.model, cx.system, cx.plan), &cx.excitation, stop) {
+                Ok([found, wanted]) if found < wanted => ws.warnings.add(Warning::Modes(fewer(found, wanted))),
+                Ok(_) => {}
+                Err(ModesFault::Stopped) => return (Outcome::Stopped { time: cx.model.analysis.begin }, None),
+                Err(fault) => return (Outcome::of(Failure::Modes(fault), cx.model.analysis.begin), None),
+            }
+        }
         ws.matrix.loses_nothing &= checkpoint.is_none() && handover.is_none();
         let began = match (&mut checkpoint, handover.as_ref()) {
             (Some(snapshot), _) => {

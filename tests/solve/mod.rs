@@ -30,6 +30,7 @@ mod kinks;
 mod linear_statics;
 mod load_steps;
 mod massless;
+mod modal_damping;
 pub mod modes;
 mod no_convergence;
 mod order;

@@ -234,6 +234,8 @@ pub struct Damping {
     pub mass_factor: f64,
     /// Rayleigh's β, time; it acts on strain rates of deformable parts and on springs of links and joints.
     pub stiffness_factor: f64,
+    /// The part of critical damping of each of the first modes, of a dynamic analysis.
+    pub modal: Vec<f64>,
     /// The reference frames of α.
     pub frames: MovingFrames,
     /// Dampers of nodes.

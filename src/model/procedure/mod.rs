@@ -214,6 +214,10 @@ pub fn check_explicit(deck: &Deck, analysis: &Analysis, scheme: &dyn Scheme, par
             format!("explicit schemes do not take the superelement `{}`: its masses are coupled", part.name());
         report.error_with::<()>(&at.span, message, "give an implicit scheme, such as `scheme` = \"generalized-alpha\"");
     }
+    if let Some(modal) = deck.damping.as_ref().and_then(|damping| damping.modal.as_ref()) {
+        let hint = "give `alpha`, or an implicit scheme, such as `scheme` = \"generalized-alpha\"";
+        report.error_with::<()>(&modal.span, "`modal` damping does not go with explicit schemes", hint);
+    }
     check_yielding(scheme, &at.span, parts.iter().any(|part| part.yields()), report);
     if parts.iter().any(|part| part.mass_kind() == Some(MassKind::Consistent)) {
         let hint = "give `mass` = \"lumped\", which needs no matrix at all";

@@ -6,6 +6,7 @@
 
 mod buckling;
 mod damped;
+mod damping_modes;
 mod fault;
 mod gyroscopic;
 mod linearized;
@@ -22,6 +23,7 @@ mod speed_modes;
 mod speeds;
 mod steady;
 
+pub use damping_modes::find_damped;
 pub use fault::ModesFault;
 pub use linearized::Linearized;
 pub use matrices::SceneMatrices;

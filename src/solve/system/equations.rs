@@ -8,6 +8,7 @@ use super::joint_loads::{self, JointLoad};
 use super::loads::{self, Loading, load_on};
 use super::mass_damping::MassDamping;
 use super::mass_scaling::MassScaling;
+use super::modal_damping::ModalDamping;
 use super::multipliers::Multipliers;
 use super::node_sums::SumChunk;
 use super::parts::beam_ends::BeamEnds;
@@ -71,6 +72,8 @@ pub struct System {
     pub(super) nodal_damping: Vec<model::NodalDamping>,
     /// Rayleigh damping of masses.
     pub(super) mass_damping: MassDamping,
+    /// Damping of modes.
+    modal_damping: ModalDamping,
     /// The tangent may hold the gyroscopic matrix C(r) (37).
     pub(super) gyroscopic: bool,
     /// The global axis normal to the plane of motion, where the scene is plane.
@@ -212,6 +215,7 @@ impl System {
             centrifugal: model.loading.centrifugal.iter().map(|load| CentrifugalLoad::new(model, &x, load)).collect(),
             nodal_damping: model.damping.nodal.clone(),
             mass_damping: MassDamping::of(model),
+            modal_damping: ModalDamping::new(if model.analysis.is_dynamic() { &model.damping.modal } else { &[] }),
             dynamic: model.analysis.kind == model::AnalysisKind::Dynamic,
         };
         system.joint_loads = joint_loads::find(model, &system.joints, (&system.links, &system.groups));
@@ -243,6 +247,7 @@ impl System {
             centrifugal: Vec::new(),
             nodal_damping: Vec::new(),
             mass_damping: MassDamping::default(),
+            modal_damping: ModalDamping::default(),
             gyroscopic: false,
             plane: self.plane,
             dynamic: self.dynamic,
@@ -306,6 +311,7 @@ impl System {
             mechanics::elements::subtract(&mut F[damping.node], 0, &(damping.translation * node.v));
             mechanics::elements::subtract(&mut F[damping.node], 3, &(damping.rotation * node.omega));
         }
+        self.modal_damping.add(nodes, Some(F));
         self.add_loads(nodes, loading, F, &mut scale);
         self.subtract_joint_forces(nodes, forces, &mut scale);
         self.transfer_to_masters(nodes, forces);
@@ -530,7 +536,7 @@ impl System {
             let node = &nodes[d.node];
             power += d.translation * node.v.norm_squared() + d.rotation * node.omega.norm_squared();
         }
-        power
+        power + self.modal_damping.add(nodes, None)
     }
 
     /// The centrifugal loads, in the order of the model's list.
@@ -541,6 +547,11 @@ impl System {
     /// Rayleigh damping of masses.
     pub fn mass_damping(&self) -> &MassDamping {
         &self.mass_damping
+    }
+
+    /// Damping of modes.
+    pub fn modal_damping(&self) -> &ModalDamping {
+        &self.modal_damping
     }
 
     /// Power of the supports that move the reference frames of mass damping, besides the power of their reactions.
@@ -601,7 +612,10 @@ impl System {
 
     /// True where any viscous damping acts.
     pub fn is_damped(&self) -> bool {
-        self.mass_damping.acts() || !self.nodal_damping.is_empty() || self.groups.iter().any(|g| g.block.is_damped())
+        self.mass_damping.acts()
+            || self.modal_damping.acts()
+            || !self.nodal_damping.is_empty()
+            || self.groups.iter().any(|g| g.block.is_damped())
     }
 
     /// True where the scene has links.
@@ -617,6 +631,7 @@ impl System {
             && self.loads.iter().all(|l| !l.follower && l.coordinate().is_none())
             && self.pressures.is_empty()
             && self.centrifugal.is_empty()
+            && !self.modal_damping.acts()
     }
 }
 

@@ -31,6 +31,7 @@ mod loads;
 pub mod mass_damping;
 mod mass_scaling;
 pub mod masses;
+pub mod modal_damping;
 mod multipliers;
 mod node_sums;
 pub mod parts;

@@ -12,6 +12,14 @@ pub fn explain(text: &mut Explanation, model: &Model) {
     if model.analysis.is_static() {
         return;
     }
+    let modal = &model.damping.modal;
+    if let (Some(first), true) = (modal.first(), model.analysis.is_dynamic()) {
+        let ratio = match modal.iter().all(|ratio| ratio == first) {
+            true => short(*first),
+            false => "their ratios".to_owned(),
+        };
+        text.add("damping", format!("{ratio} of critical on {} modes of the drawn state", modal.len()));
+    }
     let has_mass = !model.bodies.is_empty() || !model.masses.is_empty();
     let massive = |part: &Part| part.mass_kind().is_some_and(|kind| kind != MassKind::None);
     let alphas = factors(model, |part| massive(part).then(|| model.damping.alpha(&part.own_damping())));
