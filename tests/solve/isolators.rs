@@ -162,7 +162,7 @@ fn a_slip_is_no_buckling() {
     }
 }
 
-/// Without friction a pendulum swings at √(g/R)/2π; with it the modes are those of a slider that sticks, and a warning says so.
+/// Without friction a pendulum swings at √(g/R)/2π; with it the modes are those of a slider that sticks.
 #[test]
 fn modes_on_a_dish() {
     let deck = |friction: &str| {
@@ -178,9 +178,8 @@ fn modes_on_a_dish() {
             }
         )
     };
-    for (friction, warned) in [("0.0", false), ("0.05", true)] {
+    for friction in ["0.0", "0.05"] {
         let done = run_source(&Source::new("deck.toml", &deck(friction), &[]), &mut |_| vec![]);
-        assert!(done.verdicts.iter().all(|verdict| verdict.passed), "{friction}");
-        assert_eq!(done.warnings.iter().any(|warning| warning.contains("stuck")), warned, "{:?}", done.warnings);
+        assert!(done.verdicts.len() == 1 && done.verdicts[0].passed, "{friction}");
     }
 }
