@@ -19,6 +19,9 @@ pub struct Beam {
     pub path: Maybe<Names>,
     /// Name of a group of the mesh, instead of `path` and `elements`: each of its segments is an element.
     pub group: Maybe<String>,
+    /// File of BeamDyn with sections by station, instead of `stations` and `material`: a blade file, or a primary file, which adds the twist by its key
+    /// points. The path is relative to the deck's folder. The x axis of the file lies along local y, and its y axis along local z.
+    pub station_file: Maybe<String>,
     /// Elements per segment, 1 or more, or a list with one number for each segment.
     pub elements: Maybe<OneOrMany<u64>>,
     /// Length of the first and last element of a segment over that of its longest, above 0 to 1, or a list with one for each segment. From
@@ -27,7 +30,7 @@ pub struct Beam {
     pub grading: Maybe<OneOrMany<f64>>,
     /// Name of a material; left out where the section gives stiffnesses.
     pub material: Maybe<String>,
-    /// Name of a section. Required without `stations`.
+    /// Name of a section. Required without `stations` and `station_file`.
     pub section: Maybe<String>,
     /// Sections by station along the beam instead of `section`, from `at = 0` to `at = 1`. Between stations whose sections have one shape and the same
     /// keys, dimensions are linear; between others, the matrices of stiffness and mass are. Convergence is fastest if stations lie at points of the path.

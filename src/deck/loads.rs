@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::{Maybe, Names, Numbers, OneOrMany, Table, Vector};
+use super::words::{Maybe, Named, Names, Numbers, OneOrMany, Table, Vector};
 use base::diagnostic::At;
 
 /// A force or moment on points or bodies, or spread over shells.
@@ -42,6 +42,10 @@ pub struct Load {
     /// Change of temperature from the state without stress, uniform over the beams, bars and shells of `part`; their materials need
     /// `expansion`.
     pub temperature: Maybe<f64>,
+    /// Change of temperature at some nodes instead of `temperature`, by names of points, edges or sets: `{ rim = 80.0, "mesh.17" = 65.0 }`. A later
+    /// entry counts. Between the points of a path it is linear. Each element has the mean of its ends or corners.
+    #[serde(default)]
+    pub nodal_temperature: Named<f64>,
     /// Change of temperature per length across the parts of `part`, zero on the axis or reference surface: of shells one number, along the
     /// normal; of beams [along y, along z] of the section.
     pub temperature_gradient: Maybe<OneOrMany<f64>>,

@@ -215,7 +215,12 @@ pub const KEYWORDS: &[KeywordRow] = &[
         "[environment] base_acceleration",
     ),
     read("CLOAD", "OP AMPLITUDE FOLLOWER LOADCASE REAL IMAGINARY", step_cards::forces, "[[loads]] force, moment"),
-    read("TEMPERATURE", "OP AMPLITUDE", temperatures::temperatures, "[[loads]] temperature, temperature_gradient"),
+    read(
+        "TEMPERATURE",
+        "OP AMPLITUDE",
+        temperatures::temperatures,
+        "[[loads]] temperature, nodal_temperature, temperature_gradient",
+    ),
     read(
         "DLOAD",
         "OP AMPLITUDE LOADCASE REAL IMAGINARY",

@@ -36,6 +36,7 @@ mod mesh_cards;
 mod mesh_makers;
 mod mesh_text;
 mod nodal_axes;
+mod nodal_numbers;
 mod output;
 mod part_piece;
 mod parts;

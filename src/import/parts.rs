@@ -1,11 +1,12 @@
 //! Beams, bars and shells: elements with one section, cut where loads or rigid bodies end.
 
 use crate::build::Build;
-use crate::deck_text::{DeckTable, inline, list, number, quoted, vector};
+use crate::deck_text::{DeckTable, list, number, quoted, vector};
 use crate::dialect::Dialect;
 use crate::element_types::ElementUse;
 use crate::file_content::{SectionCard, SectionOf, SectionValue};
 use crate::material_cards;
+use crate::nodal_numbers::by_nodes;
 use crate::part_piece::PartPiece;
 use crate::scopes::{NamedTarget, PlacedElement};
 use crate::temperatures;
@@ -462,7 +463,7 @@ fn shell(
     }
     if !varying.is_empty() {
         build.im.change(card.line, "each element has the mean of the thicknesses of its corners");
-        table = table.value("nodal_thickness", at_corners(build, varying));
+        table = table.value("nodal_thickness", by_nodes(build, varying, "thick"));
         if offset != 0.0 {
             build.im.refuse(card.line, "an offset of a shell whose thickness varies is not translated");
         }
@@ -484,23 +485,6 @@ fn shell(
         }
     }
     build.deck.add(table);
-}
-
-/// The thicknesses by nodes, alike ones together.
-fn at_corners(build: &mut Build, varying: &BTreeMap<u64, f64>) -> String {
-    let mut nodes: Vec<(f64, BTreeSet<u64>)> = Vec::new();
-    for (node, thickness) in varying {
-        match nodes.iter_mut().find(|(known, _)| known == thickness) {
-            Some((_, of)) => drop(of.insert(*node)),
-            None => nodes.push((*thickness, BTreeSet::from([*node]))),
-        }
-    }
-    let mut keys = Vec::new();
-    for (thickness, of) in nodes {
-        keys.extend(build.names(&of, &[], "thick").into_iter().map(|name| (quoted(&name), number(thickness))));
-    }
-    let keys: Vec<(&str, String)> = keys.iter().map(|(name, value)| (&name[..], value.clone())).collect();
-    inline(&keys)
 }
 
 /// Adds a bar for each element.

@@ -6,6 +6,7 @@ use crate::file_content::{StepCard, TemperatureLine};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::loads::{in_time, lines_of};
+use crate::nodal_numbers::by_nodes;
 use crate::part_piece::PartPiece;
 use crate::scopes::NamedTarget;
 use crate::timeline::{GivenValue, InStep, TimeLaw, histories};
@@ -13,6 +14,16 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// The index of a part and its field: 0 temperature, 1 gradient along the first axis of a beam, 2 along the second axis or the normal of a shell.
 type HeatKey = (usize, usize);
+
+/// The changes of temperature of the nodes of a part, where they differ.
+struct NodalField {
+    changes: BTreeMap<u64, f64>,
+    /// The largest by size.
+    largest: f64,
+}
+
+/// The fields of parts by their index.
+type NodalFields = HashMap<usize, NodalField>;
 
 /// `*TEMPERATURE`.
 pub fn temperatures(im: &mut Importer, block: &KeywordBlock) {
@@ -71,8 +82,9 @@ pub fn heat(build: &mut Build) {
     let start = at_nodes(build, &first);
     let steps = build.im.steps.list.clone();
     let mut given: HashMap<usize, Vec<(HeatKey, GivenValue)>> = HashMap::new();
+    let mut fields = NodalFields::new();
     for step in &steps {
-        let of_step = of_parts(build, &step.temperatures, &start);
+        let of_step = of_parts(build, &step.temperatures, &start, &mut fields);
         given.insert(step.line, of_step);
     }
     let of = |step: &StepCard| given.get(&step.line).cloned().unwrap_or_default();
@@ -86,7 +98,7 @@ pub fn heat(build: &mut Build) {
         }
     }
     for (part, of_part) in loads {
-        write(build, part, of_part);
+        write(build, part, of_part, fields.get(&part));
     }
 }
 
@@ -99,11 +111,12 @@ fn at_nodes(build: &mut Build, lines: &[TemperatureLine]) -> HashMap<u64, Temper
     of_node
 }
 
-/// Changes of temperature of parts in a step; refuses parts whose nodes differ.
+/// Changes of temperature of parts in a step. Where the nodes of a part differ, their changes go into `fields`.
 fn of_parts(
     build: &mut Build,
     lines: &[TemperatureLine],
     start: &HashMap<u64, TemperatureLine>,
+    fields: &mut NodalFields,
 ) -> Vec<(HeatKey, GivenValue)> {
     let (of_node, mut given) = (at_nodes(build, lines), Vec::new());
     for (index, piece) in build.pieces.clone().iter().enumerate().filter(|(_, piece)| !piece.is_rigid) {
@@ -114,11 +127,19 @@ fn of_parts(
             nodes.iter().all(|node| values(of, node) == values(of, &nodes.first().copied().unwrap_or(0)))
         };
         if !alike(&of_node) || !alike(start) || !nodes.iter().all(|node| of_node.contains_key(node)) {
-            let about = format!(
-                "the temperature differs over the nodes of `{}`, and a part has one: cut it into parts",
-                piece.name
-            );
-            build.im.refuse(line.line, &about);
+            match field(&nodes, &of_node, start) {
+                Ok(field) if fields.get(&index).is_none_or(|known| known.changes == field.changes) => {
+                    let value = GivenValue { value: field.largest, amplitude: line.amplitude.clone(), line: line.line };
+                    given.push(((index, 0), value));
+                    fields.insert(index, field);
+                }
+                Ok(_) => {
+                    let about =
+                        format!("the field of temperature over `{}` has another shape in a step before", piece.name);
+                    build.im.refuse(line.line, &about);
+                }
+                Err(reason) => build.im.refuse(line.line, &format!("over the nodes of `{}` {reason}", piece.name)),
+            }
             continue;
         }
         let Some(node) = nodes.first() else { continue };
@@ -137,8 +158,34 @@ fn of_parts(
     given
 }
 
+/// The changes of temperature of nodes that differ. Errors: what else differs.
+fn field(
+    nodes: &BTreeSet<u64>,
+    of_node: &HashMap<u64, TemperatureLine>,
+    start: &HashMap<u64, TemperatureLine>,
+) -> Result<NodalField, &'static str> {
+    let before = |node: &u64| start.get(node).map_or([0.0; 3], |line| line.values);
+    let lines = || nodes.iter().filter_map(|node| of_node.get(node));
+    if lines().any(|line| line.values[1..] != [0.0; 2]) || nodes.iter().any(|node| before(node)[1..] != [0.0; 2]) {
+        return Err("gradients of temperature do not go with temperatures that differ: cut it into parts");
+    }
+    let mut amplitudes = lines().map(|line| &line.amplitude);
+    let first = amplitudes.next().cloned().flatten();
+    if amplitudes.any(|amplitude| *amplitude != first) {
+        return Err("temperatures have different amplitudes: cut it into parts");
+    }
+    if first.is_some() && nodes.iter().any(|node| before(node) != [0.0; 3]) {
+        return Err("an amplitude multiplies the temperature, and the deck has its change: begin at 0");
+    }
+    // A node without a temperature keeps that of the start.
+    let change = |node: &u64| of_node.get(node).map_or(0.0, |line| line.values[0] - before(node)[0]);
+    let changes: BTreeMap<u64, f64> = nodes.iter().map(|node| (*node, change(node))).collect();
+    let largest = changes.values().fold(0.0, |a: f64, b| if b.abs() > a.abs() { *b } else { a });
+    Ok(NodalField { changes, largest })
+}
+
 /// Adds the loads of a part: one for each law in time.
-fn write(build: &mut Build, part: usize, laws: Vec<(usize, TimeLaw, Vec<usize>)>) {
+fn write(build: &mut Build, part: usize, laws: Vec<(usize, TimeLaw, Vec<usize>)>, field: Option<&NodalField>) {
     let piece: PartPiece = build.pieces[part].clone();
     let mut done: BTreeMap<String, (TimeLaw, [f64; 3], BTreeSet<usize>)> = BTreeMap::new();
     for (component, law, lines) in laws {
@@ -149,8 +196,15 @@ fn write(build: &mut Build, part: usize, laws: Vec<(usize, TimeLaw, Vec<usize>)>
     }
     for (law, [change, first, second], lines) in done.into_values() {
         let mut table = DeckTable::new("loads", 0).with_lines(lines).names("part", &piece.names);
-        if change != 0.0 {
-            table = table.number("temperature", change);
+        match field {
+            Some(field) if change != 0.0 => {
+                let factor = change / field.largest;
+                let changed = field.changes.iter().filter(|(_, value)| **value != 0.0);
+                let changes = changed.map(|(node, value)| (*node, factor * value)).collect();
+                table = table.value("nodal_temperature", by_nodes(build, &changes, "warm"));
+            }
+            None if change != 0.0 => table = table.number("temperature", change),
+            _ => {}
         }
         if [first, second] != [0.0; 2] {
             table = match piece.is_beam {

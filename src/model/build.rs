@@ -8,6 +8,7 @@ use super::attachments::attachments;
 use super::bars::bars;
 use super::beams::beams;
 use super::beams::mass_nodes::add_mass_nodes;
+use super::beams::station_file::{GivenStations, load_stations};
 use super::bodies::bodies;
 use super::cases::cases;
 use super::contacts::contacts;
@@ -89,13 +90,16 @@ struct Files<'d> {
     records: &'d [Option<Record>],
     /// The matrices of its superelements.
     matrices: &'d [Option<GivenMatrices>],
+    /// The sections of its beams by station.
+    stations: &'d [Option<GivenStations>],
 }
 
 impl Files<'_> {
-    /// The files of records and matrices, for the model to remember.
+    /// The files of records, matrices and stations, for the model to remember.
     fn origins(&self) -> Vec<RecordFile> {
         let matrices = self.matrices.iter().flatten().flat_map(|given| &given.files).cloned();
-        self.records.iter().flatten().map(Record::origin).chain(matrices).collect()
+        let stations = self.stations.iter().flatten().flat_map(|given| &given.files).cloned();
+        self.records.iter().flatten().map(Record::origin).chain(matrices).chain(stations).collect()
     }
 }
 
@@ -146,7 +150,9 @@ fn read_from(source: &Source, stages: (&[f64], Option<&Model>)) -> (Vec<Model>, 
     said.extend(of_records);
     let (matrices, of_matrices) = deck.as_ref().map_or((Vec::new(), Vec::new()), |deck| load_matrices(deck, folder));
     said.extend(of_matrices);
-    let files = Files { input: input.as_ref(), records: &records, matrices: &matrices };
+    let (stations, of_stations) = deck.as_ref().map_or((Vec::new(), Vec::new()), |deck| load_stations(deck, folder));
+    said.extend(of_stations);
+    let files = Files { input: input.as_ref(), records: &records, matrices: &matrices, stations: &stations };
     let (mut models, more) = match &deck {
         Some(deck) if !deck.stages.is_empty() => build_stages(deck, stages, files),
         Some(deck) => {
@@ -428,6 +434,7 @@ fn ground<'d>(
         names: &names,
         materials: &materials,
         sections: Sections::new(deck, &materials),
+        station_files: files.stations,
         groups: Groups::new(mesh),
         nodes: &mut nodes,
         parts: Parts::default(),

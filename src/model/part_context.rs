@@ -1,5 +1,6 @@
 //! The context for reading the tables of deformable parts.
 
+use super::beams::station_file::GivenStations;
 use super::groups::Groups;
 use super::materials::Materials;
 use super::names::Names;
@@ -19,6 +20,8 @@ pub(super) struct PartContext<'a, 'd> {
     pub materials: &'a Materials<'d>,
     /// The sections, computed where a beam names them first.
     pub sections: Sections<'a, 'd>,
+    /// The stations that files give to beams, in their order.
+    pub station_files: &'d [Option<GivenStations>],
     /// The groups of the mesh, and the parts that take them.
     pub groups: Groups<'d>,
     /// The nodes so far.

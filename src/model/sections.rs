@@ -108,20 +108,29 @@ impl<'a, 'd> Sections<'a, 'd> {
         index
     }
 
+    /// Index of the section of a file.
+    pub fn add(&mut self, section: &Stiffness, shear: bool) -> usize {
+        self.stiffnesses.push(if shear { section.clone() } else { section.without_shear() });
+        self.stresses.push(None);
+        self.stiffnesses.len() - 1
+    }
+
     /// Index of the section at this part of the way between two stations of a beam, with its place from the axis along its own axes. Both sections
     /// are sound.
     pub fn between(
         &mut self,
-        [start, end]: [(&At<String>, usize); 2],
+        [start, end]: [(Option<&At<String>>, usize); 2],
         made_of: &'d Maybe<String>,
         (part, place, shear): (f64, [f64; 2], bool),
     ) -> usize {
         let (from, to) = (&self.stiffnesses[start.1], &self.stiffnesses[end.1]);
         let (mut stiffness, mut stresses) = (from.toward(to, part), None);
-        if start.0.value == end.0.value {
-            stresses.clone_from(&self.stresses[start.1]);
-        } else if let Some((own, of_shape)) = self.of_dimensions([start.0, end.0], made_of, part) {
-            (stiffness, stresses) = (if shear { own } else { own.without_shear() }, of_shape);
+        if let (Some(a), Some(b)) = (start.0, end.0) {
+            if a.value == b.value {
+                stresses.clone_from(&self.stresses[start.1]);
+            } else if let Some((own, of_shape)) = self.of_dimensions([a, b], made_of, part) {
+                (stiffness, stresses) = (if shear { own } else { own.without_shear() }, of_shape);
+            }
         }
         if place != [0.0; 2] {
             stiffness = stiffness.beside(place);

@@ -35,7 +35,7 @@ const CATALOGUES: [(&str, &[&str]); 7] = [
     ("results/tables", &["shell_order"]),
     (
         "mechanics/sections",
-        &["dimensions", "fibres", "profile", "rounded", "section", "section_shape", "stresses", "wall"],
+        &["dimensions", "fibres", "matrices", "profile", "rounded", "section", "section_shape", "stresses", "wall"],
     ),
     ("mechanics/solids", &["element_faces", "hollow", "hull_points", "kind", "outline", "segment"]),
 ];

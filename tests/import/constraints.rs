@@ -197,7 +197,12 @@ fn temperatures_of_parts() {
     let cold = imported(&edited(BEAM, &heated[..2]));
     assert!(!cold.deck.contains("expansion"), "{}", cold.deck);
     assert!(reasons(&cold, KeywordVerdict::Ignored).iter().any(|said| said.contains("no temperature changes")));
-    refuses(BEAM, &[heated[0], ("*CLOAD", "*TEMPERATURE\n1, 60.\n*CLOAD")], "differs over the nodes of `rod`");
+    let made = imported(&edited(BEAM, &[heated[0], heated[1], ("*CLOAD", "*TEMPERATURE\n1, 60.\n2, 35.\n*CLOAD")]));
+    assert_eq!(refusals(&made), [""; 0]);
+    let wanted = "part = \"rod\"\nnodal_temperature = { \"mesh.1\" = 40.0, \"mesh.2\" = 15.0 }\n";
+    assert!(made.deck.contains(wanted), "{}", made.deck);
+    let bent = ("*CLOAD", "*TEMPERATURE\n1, 60., 5.\n2, 35.\n*CLOAD");
+    refuses(BEAM, &[heated[0], bent], "gradients of temperature do not go with temperatures that differ");
     let kind = ("*DENSITY", "*EXPANSION, TYPE=ORTHO\n1e-5, 2e-5, 3e-5\n*DENSITY");
     refuses(BEAM, &[kind, heated[2]], "isotropic expansion alone");
 }

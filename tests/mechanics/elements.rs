@@ -109,7 +109,7 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
     let heated = |own: &[Vec3], numbers: usize| {
         let node = |k: usize| (k < numbers).then_some(own.len() + k);
         let x: Vec<Vec3> = own.iter().copied().chain((0..numbers).map(|_| start)).collect();
-        (x, Heat { numbers: std::array::from_fn(node), length: 100.0 })
+        (x, Heat { numbers: std::array::from_fn(node), length: 100.0, factors: vec![0.7] })
     };
     let (warm, heat) = heated(&nodes_of(3, &frame, start), 3);
     let one = [BeamGeometry { nodes: &[0, 1, 2], frame: &frame, stiffness: &section(), varied: None }];

@@ -11,6 +11,7 @@ mod profiles;
 mod shear_areas;
 mod shear_rigid;
 mod shells;
+mod station_files;
 mod stations;
 mod superelements;
 mod unlimited_rotations;

@@ -33,6 +33,7 @@ mod massless;
 mod modal_damping;
 pub mod modes;
 mod no_convergence;
+mod nodal_temperature;
 mod order;
 mod plan;
 mod plasticity;

@@ -20,7 +20,7 @@ pub fn elastic_bars(
     x: &[Vec3],
     damping: f64,
 ) -> Links {
-    let link = |&nodes: &[usize; 2]| {
+    let link = |(e, &nodes): (usize, &[usize; 2])| {
         let start = nodes.map(|node| x[node]);
         let length = free * (start[1] - start[0]).norm();
         let stiffness = axial_stiffness / length;
@@ -30,11 +30,11 @@ pub fn elastic_bars(
         };
         let link = Link::new(nodes, law, Damper::linear(damping * stiffness), None, length, start);
         match heat.numbers[0] {
-            Some(node) => link.heated(node, x[node], length / heat.length),
+            Some(node) => link.heated(node, x[node], heat.factor(e) * length / heat.length),
             None => link,
         }
     };
-    Links::new(elements.iter().map(link).collect())
+    Links::new(elements.iter().enumerate().map(link).collect())
 }
 
 /// Bars whose material yields. A tension-only bar goes slack where its elastic strain would be compressive, and keeps its
@@ -98,15 +98,15 @@ impl YieldingBars {
         }
     }
 
-    fn strain(&self, e: usize, nodes: &[Node]) -> BarStrain {
-        let BarElement { nodes: ends, start, free } = &self.elements[e];
+    fn strain(&self, bar: usize, nodes: &[Node]) -> BarStrain {
+        let BarElement { nodes: ends, start, free } = &self.elements[bar];
         let [a, b] = ends.map(|node| &nodes[node]);
         let (dx, dv) = (b.relative_position(a), b.v - a.v);
         let (length, before) = (dx.norm(), start[1] - start[0]);
         let more = elongation(&before, before.norm(), &stretch(a, b, start), length);
         // Coincident points define no direction: there is no force until they separate.
         let e = if length > 0.0 { dx / length } else { Vec3::zeros() };
-        let grown = self.heat.as_ref().map_or(0.0, |heat| heat.strain(nodes)[0]);
+        let grown = self.heat.as_ref().map_or(0.0, |heat| heat.factor(bar) * heat.strain(nodes)[0]);
         let strain = ((before.norm() - free) + more) / free - grown;
         BarStrain { e, length, strain, strain_rate: e.dot(&dv) / free, dv }
     }
@@ -116,11 +116,12 @@ impl YieldingBars {
         let Some(heat) = &self.heat else { return };
         let at = self.strain(e, now.nodes);
         let modulus = self.tension(&at, now.dt, &now.history[self.history_range(e)], Moduli::Elastic).modulus;
-        let force = self.area * modulus * at.e;
+        let factor = heat.factor(e);
+        let force = factor * self.area * modulus * at.e;
         heat.widen(3, K, |_, column| {
             column[..3].copy_from_slice(force.as_slice());
             column[3..].copy_from_slice((-force).as_slice());
-            [-self.area * modulus * self.elements[e].free, 0.0, 0.0]
+            [-factor * factor * self.area * modulus * self.elements[e].free, 0.0, 0.0]
         });
     }
 
@@ -201,7 +202,8 @@ impl Mechanics for YieldingBars {
             subtract(&mut F[*a], 0, &-f);
             subtract(&mut F[*b], 0, &f);
             if let Some(heat) = &self.heat {
-                heat.subtract_forces(&[tension.material * self.elements[e].free, 0.0, 0.0], F);
+                let work = heat.factor(e) * tension.material * self.elements[e].free;
+                heat.subtract_forces(&[work, 0.0, 0.0], F);
             }
         }
     }

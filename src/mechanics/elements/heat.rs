@@ -7,6 +7,7 @@
 use super::block::Force;
 use crate::state::Node;
 use base::math::Vec3;
+use std::ops::Range;
 
 /// The temperatures of a part.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,11 +17,24 @@ pub struct Heat {
     pub numbers: [Option<usize>; 3],
     /// A length of the part, above 0.
     pub length: f64,
+    /// Factors on the first strain by element; empty if all are 1.
+    pub factors: Vec<f64>,
 }
 
 impl Heat {
     /// No temperatures.
-    pub const NONE: Heat = Heat { numbers: [None; 3], length: 1.0 };
+    pub const NONE: Heat = Heat { numbers: [None; 3], length: 1.0, factors: Vec::new() };
+
+    /// The temperatures of some of the elements.
+    pub fn piece(&self, elements: Range<usize>) -> Heat {
+        let factors = self.factors.get(elements).map_or_else(Vec::new, <[f64]>::to_vec);
+        Heat { numbers: self.numbers, length: self.length, factors }
+    }
+
+    /// The factor on the first strain in an element.
+    pub fn factor(&self, e: usize) -> f64 {
+        self.factors.get(e).copied().unwrap_or(1.0)
+    }
 
     /// The nodes that are there.
     pub fn nodes_mut(&mut self) -> impl Iterator<Item = &mut usize> {
@@ -43,6 +57,8 @@ struct HeatNode {
 pub(super) struct HeatNodes {
     numbers: Vec<HeatNode>,
     per_length: f64,
+    /// Factors on the first strain by element; empty if all are 1.
+    factors: Vec<f64>,
     /// The nodes of all elements, each with those of heat behind its own.
     nodes: Vec<usize>,
     /// The number of nodes of an element of its own.
@@ -63,7 +79,8 @@ impl HeatNodes {
             nodes.extend(element);
             nodes.extend(numbers.iter().map(|number| number.node));
         }
-        Some(HeatNodes { numbers, per_length: 1.0 / heat.length, nodes, own })
+        let factors = heat.factors.clone();
+        Some(HeatNodes { numbers, per_length: 1.0 / heat.length, factors, nodes, own })
     }
 
     /// The nodes of an element.
@@ -72,7 +89,13 @@ impl HeatNodes {
         &self.nodes[e * count..(e + 1) * count]
     }
 
-    /// The strain of the axis or surface, and its derivatives along y or the normal, and along z.
+    /// The factor on the first strain in an element.
+    #[inline]
+    pub fn factor(&self, e: usize) -> f64 {
+        self.factors.get(e).copied().unwrap_or(1.0)
+    }
+
+    /// The strain of the axis or surface for a factor of 1, and its derivatives along y or the normal, and along z.
     #[inline]
     pub fn strain(&self, nodes: &[Node]) -> [f64; 3] {
         let mut strain = [0.0; 3];

@@ -2,10 +2,11 @@
 
 use super::dimensions::positive;
 use super::fibres::Fibre;
+use super::matrices::{LaminaMass, of_stiffness};
 use super::section::{Section, Stiffness};
-use super::section_mass::{Masses, symmetric};
 use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape};
 use super::stresses::SectionOutline;
+use base::math::Mat6;
 use base::words::kinds::Values;
 use base::words::kinds::{Form, Given, Key};
 
@@ -115,7 +116,7 @@ fn stiffness(given: &mut Given, needs_mass: bool) -> Option<CrossSection> {
     let shear = given.require_positive_pair("shear_stiffness");
     let torsion = given.require_positive("torsional_stiffness");
     let bending = given.require_positive_pair("bending_stiffness");
-    let masses = Masses::read(given, needs_mass)?;
+    let masses = LaminaMass::read(given, needs_mass)?;
     let stiffness = Stiffness::general(axial?, shear?, torsion?, bending?, 0.0, [0.0; 3]);
     Some(CrossSection::Stiffness(Box::new(masses.of(stiffness))))
 }
@@ -124,14 +125,11 @@ fn coupled(given: &mut Given, needs_mass: bool) -> Option<CrossSection> {
     for key in STIFFNESSES[1..5].iter().filter(|key| given.has(key)).collect::<Vec<_>>() {
         given.error_with::<()>(key, format!("`{key}` does not apply beside `stiffness`"), "remove it, or the matrix");
     }
-    let masses = Masses::read(given, needs_mass)?;
-    let K = symmetric(given, "stiffness")?;
-    if K.cholesky().is_none() {
-        let hint = "a section has a positive energy in every strain: look at the order of rows, and at signs";
-        return given.error_with("stiffness", "`stiffness` is not positive definite", hint);
+    let masses = LaminaMass::read(given, needs_mass)?;
+    match of_stiffness(&Mat6::from_row_slice(given.numbers("stiffness"))) {
+        Ok(own) => Some(CrossSection::Stiffness(Box::new(masses.of(own)))),
+        Err([message, hint]) => given.error_with("stiffness", message, hint),
     }
-    let own = Stiffness::general(1.0, [1.0; 2], 1.0, [1.0; 2], 0.0, [0.0; 3]);
-    Some(CrossSection::Stiffness(Box::new(masses.of(own.with_matrix(&K)))))
 }
 
 /// A section by its area, moments and shear areas.

@@ -137,7 +137,7 @@ impl Stiffness {
         }
     }
 
-    /// The section about an axis from which its own lies at (y, z): Γ is there Γ + κ × (0, y, z).
+    /// Returns the section about another axis; its own lies at (y, z) from that, with the strain Γ + κ × (0, y, z).
     pub fn beside(&self, [y, z]: [f64; 2]) -> Stiffness {
         let s = skew(&Vec3::new(0.0, y, z));
         let Stiffness { N, M, NM, mass_center: [my, mz], .. } = self;

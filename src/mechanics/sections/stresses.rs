@@ -83,7 +83,7 @@ impl SectionStresses {
         SectionStresses { area, bending, shear_center, centroid: [0.0; 2], outline }
     }
 
-    /// The same section with its centroid at (y, z) from the axis of the beam.
+    /// Returns the section with its centroid at (y, z) from the axis of the beam.
     pub fn beside(self, centroid: [f64; 2]) -> SectionStresses {
         SectionStresses { centroid, ..self }
     }

@@ -4,6 +4,7 @@ pub mod grading;
 pub mod mass_nodes;
 pub mod paths;
 mod released;
+pub mod station_file;
 mod stations;
 
 use crate::beams::grading::{cuts, gradings};
@@ -73,10 +74,10 @@ fn read_beam<'d>(
     let mass = chosen(&beam.mass);
     let damping = own_damping::of_part(&beam.damping, cx.report);
     let shear = flag(&beam.shear, true);
-    let stations = stations::stations(owner, beam, (mass, shear), cx);
-    let section = match &beam.stations {
-        Some(_) => stations.as_ref().and_then(|stations| stations.first()),
-        None => cx.sections.beam_section(owner, [&beam.section, &beam.material], (mass, shear), cx.report),
+    let stations = stations::stations(owner, (at.index, beam), (mass, shear), cx);
+    let section = match (&beam.stations, &beam.station_file) {
+        (Some(_), _) | (_, Some(_)) => stations.as_ref().and_then(|stations| stations.first()),
+        (None, None) => cx.sections.beam_section(owner, [&beam.section, &beam.material], (mass, shear), cx.report),
     };
     let yielding = yielding(owner, beam, order, section.is_some(), cx);
     let orientation = cx.report.require(owner, "orientation", &beam.orientation);

@@ -1,8 +1,10 @@
 //! `stations` of a beam: sections, twist and offset by place along it, for tapered beams and blades.
 
+use super::station_file::FileStation;
 use crate::data::{BeamElement, MassKind, SectionAt, VariedElement};
 use crate::part_context::PartContext;
 use crate::report::Owner;
+use crate::values::keys;
 use base::diagnostic::{At, Span};
 use base::math::quadrature::{gauss, lobatto};
 use base::math::{Mat3, Vec3};
@@ -16,7 +18,8 @@ pub(super) struct Stations<'d>(Vec<Station<'d>>);
 /// A station whose section is sound.
 struct Station<'d> {
     at: f64,
-    name: &'d At<String>,
+    /// The name of its section in the deck; `None` of a file.
+    name: Option<&'d At<String>>,
     /// Index of its stiffness.
     section: usize,
     twist: f64,
@@ -26,10 +29,15 @@ struct Station<'d> {
 /// Reads the stations of a beam; `None` where it has none, or there are errors.
 pub(super) fn stations<'d>(
     owner: &Owner<'d>,
-    beam: &'d words::Beam,
+    (index, beam): (usize, &'d words::Beam),
     setting: (MassKind, bool),
     cx: &mut PartContext<'_, 'd>,
 ) -> Option<Stations<'d>> {
+    if beam.station_file.is_some() {
+        let unused = keys!(beam; section, stations, material);
+        cx.report.reject_unused("a beam with `station_file`", &unused);
+        return of_file(index, setting.1, cx);
+    }
     let table = beam.stations.as_ref()?;
     if let Some(section) = &beam.section {
         let message = format!("{} has `section` and `stations`", owner.what);
@@ -48,6 +56,19 @@ pub(super) fn stations<'d>(
     Some(Stations(all))
 }
 
+/// The stations of the file of a beam; `None` after errors, which reading it has reported.
+fn of_file<'d>(index: usize, shear: bool, cx: &mut PartContext<'_, 'd>) -> Option<Stations<'d>> {
+    let given = cx.station_files.get(index)?.as_ref()?;
+    let station = |station: &FileStation| Station {
+        at: station.at,
+        name: None,
+        section: cx.sections.add(&station.stiffness, shear),
+        twist: station.twist,
+        offset: [0.0; 2],
+    };
+    Some(Stations(given.list.iter().map(station).collect()))
+}
+
 fn read<'d>(
     beam: &'d words::Beam,
     station: &'d At<Table<words::Station>>,
@@ -59,7 +80,7 @@ fn read<'d>(
     let section = cx.sections.beam_section(&owner, [&station.section, &beam.material], setting, cx.report);
     Some(Station {
         at: at?.value,
-        name: station.section.as_ref()?,
+        name: Some(station.section.as_ref()?),
         section: section?,
         twist: station.twist.as_ref().map_or(0.0, |twist| twist.value),
         offset: station.offset.as_ref().map_or([0.0; 2], |offset| offset.value.0),
@@ -110,7 +131,8 @@ impl<'d> Stations<'d> {
         cx: &mut PartContext<'_, 'd>,
     ) -> Option<()> {
         if let Some(k) = (1..elements.len()).find(|&k| elements[k - 1].nodes[order] != elements[k].nodes[0]) {
-            let place = beam.stations.as_ref().map(|stations| &stations.span)?;
+            let file = beam.station_file.as_ref().map(|file| &file.span);
+            let place = beam.stations.as_ref().map(|stations| &stations.span).or(file)?;
             let message = format!(
                 "`stations` follow a line, and segment {} of the group does not begin where segment {k} ends",
                 k + 1

@@ -88,6 +88,12 @@ pub trait PartAnswers {
     /// Nodes of an element of a deformable part, ends of a link, points of a contact without the node that carries the surface.
     fn nodes(&self, element: usize) -> &[usize];
 
+    /// The ends or corners of an element of a deformable part.
+    fn corners(&self, element: usize) -> Vec<usize> {
+        let nodes = self.nodes(element);
+        vec![nodes[0], nodes[nodes.len() - 1]]
+    }
+
     /// Calls `visit` with every node of the part, for renumbering.
     fn visit_nodes(&mut self, visit: &mut dyn FnMut(&mut usize));
 

@@ -128,6 +128,10 @@ impl PartAnswers for Shell {
         &self.elements[element].nodes[..self.size()]
     }
 
+    fn corners(&self, element: usize) -> Vec<usize> {
+        self.elements[element].nodes[..self.corners].to_vec()
+    }
+
     fn visit_nodes(&mut self, visit: &mut dyn FnMut(&mut usize)) {
         self.elements.iter_mut().flat_map(|e| &mut e.nodes).chain(self.heat.nodes_mut()).for_each(visit);
     }

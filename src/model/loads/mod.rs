@@ -1,6 +1,7 @@
 //! `[[loads]]`: forces and moments at nodes.
 
 pub mod centrifugal;
+pub mod nodal_temperature;
 pub mod per_length;
 pub mod placed;
 pub mod spread;
@@ -70,7 +71,7 @@ pub fn loads<'d>(
 
 /// True for a load that heats parts.
 pub fn is_temperature(load: &words::Load) -> bool {
-    load.temperature.is_some() || load.temperature_gradient.is_some()
+    load.temperature.is_some() || load.temperature_gradient.is_some() || !load.nodal_temperature.0.is_empty()
 }
 
 /// True for a load that is spread over parts or edges.

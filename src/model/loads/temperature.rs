@@ -2,6 +2,7 @@
 
 use crate::data::{Actors, AnalysisKind, History, PrescribedMotion};
 use crate::loads::is_temperature;
+use crate::loads::nodal_temperature::{NodalTemperatures, check_nodes, nodal_temperatures};
 use crate::places::nodes::Topology;
 use crate::places::place::Place;
 use crate::report::{Owner, Report};
@@ -41,16 +42,22 @@ pub fn temperatures<'d>(
         scene.analysis.plane &= load.temperature_gradient.is_none();
         let amplitude = amplitude(scene, load, amplitudes, report);
         let Some(names) = report.require(&owner, "part", &load.part) else { continue };
-        let mut motions = Vec::new();
+        let (mut motions, mut heated) = (Vec::new(), Vec::new());
         for name in &names.values {
             let Some(place) = scene.names.find(name, report) else { continue };
             for part in parts(scene, place, name, report) {
-                let numbers = heat(scene, (load, name), part, topology, report);
+                heated.push(part);
+                let field = nodal_temperatures(scene, load, part, topology, report);
+                let numbers = heat(scene, (load, name), (part, field.as_ref()), topology, report);
                 if let (Some(numbers), Some(amplitude)) = (numbers, amplitude) {
                     motions.extend(add(scene, (part, name), (amplitude, &numbers), topology, report));
+                    if let Some(field) = field {
+                        field.give(&mut scene.parts, part);
+                    }
                 }
             }
         }
+        check_nodes(scene, load, &heated, topology, report);
         if let Some(name) = &load.name {
             let are_new = scene.stage.is_some_and(|stage| stage.is_new(&load.stages));
             actors.push((name, Actors { motions, are_new, ..Actors::default() }));
@@ -106,7 +113,7 @@ fn parts<'d>(scene: &Scene<'d>, place: Place, name: &At<String>, report: &mut Re
 fn heat<'d>(
     scene: &Scene<'d>,
     (load, name): (&'d Table<words::Load>, &At<String>),
-    part: PartIndex,
+    (part, field): (PartIndex, Option<&NodalTemperatures>),
     topology: &Topology,
     report: &mut Report<'d>,
 ) -> Option<[f64; 4]> {
@@ -131,7 +138,8 @@ fn heat<'d>(
     }
     let length = length(scene, part, topology);
     let along = |k: usize| gradient.and_then(|at| at.values.get(k)).map_or(0.0, |value| value.value);
-    let temperature = load.temperature.as_ref().map_or(0.0, |at| at.value);
+    let uniform = load.temperature.as_ref().map_or(0.0, |at| at.value);
+    let temperature = field.map_or(uniform, |field| field.largest);
     let [a, b, c] = [temperature, along(0), along(1)].map(|value| expansion.value * value * length);
     Some([a, b, c, length])
 }

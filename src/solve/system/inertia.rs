@@ -242,7 +242,7 @@ impl ConsistentMass {
         ConsistentMass { nodes: nodes.to_vec(), m, alpha: 0.0 }
     }
 
-    /// Entries ∫ m N_a N_b over such an element, where these are the masses m that it would have if it were like each of its nodes.
+    /// Entries ∫ m N_a N_b over such an element. `masses` are the mass per length at each node times the length.
     pub fn varied(nodes: &[usize], masses: &[f64]) -> Self {
         let n = nodes.len();
         let (at, _) = quadrature::lobatto(n);

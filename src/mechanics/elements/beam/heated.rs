@@ -12,7 +12,7 @@ impl BeamHeat {
     pub fn unit(&self, e: usize, tangent: &Vec3, of: usize) -> Pair {
         let [y, z] = self.axes[e];
         match of {
-            0 => [*tangent, Vec3::zeros()],
+            0 => [self.nodes.factor(e) * tangent, Vec3::zeros()],
             1 => [Vec3::zeros(), -z],
             _ => [Vec3::zeros(), y],
         }
@@ -22,13 +22,13 @@ impl BeamHeat {
     pub fn strain(&self, e: usize, tangent: &Vec3, nodes: &[Node]) -> Pair {
         let [axial, by_y, by_z] = self.nodes.strain(nodes);
         let [y, z] = self.axes[e];
-        [axial * tangent, by_z * y - by_y * z]
+        [self.nodes.factor(e) * axial * tangent, by_z * y - by_y * z]
     }
 
     /// The work of a stress, integrated over the length, by each of the three strains.
     pub fn work(&self, e: usize, tangent: &Vec3, [n, m]: &Pair) -> [f64; 3] {
         let [y, z] = self.axes[e];
-        [n.dot(tangent), -m.dot(&z), m.dot(&y)]
+        [self.nodes.factor(e) * n.dot(tangent), -m.dot(&z), m.dot(&y)]
     }
 }
 

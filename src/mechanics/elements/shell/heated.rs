@@ -9,7 +9,7 @@ use super::section::ShellSections;
 use crate::elements::heat::{Heat, HeatNodes};
 use base::math::Vec3;
 use base::math::lanes::Lanes;
-use base::math::number::LaneVec3;
+use base::math::number::{LaneVec3, Number};
 use std::array::from_fn;
 use std::sync::Arc;
 
@@ -26,8 +26,11 @@ where
     pub fn heated(mut self, heat: &Heat, x: &[Vec3]) -> Self {
         let own = self.packs.iter().flat_map(|pack| &pack.nodes[..pack.count]).map(|nodes| &nodes[..]);
         let Some(nodes) = HeatNodes::new(heat, own, x).map(Arc::new) else { return self };
+        let mut first = 0;
         for pack in &mut self.packs {
-            pack.heat = Some(Box::new(PackHeat { nodes: Arc::clone(&nodes), unit: pack.units::<K>(x) }));
+            let factor = Lanes::gather(|lane| nodes.factor(first + lane.min(pack.count - 1)));
+            first += pack.count;
+            pack.heat = Some(Box::new(PackHeat { nodes: Arc::clone(&nodes), factor, unit: pack.units::<K>(x) }));
         }
         self.heat = Some(nodes);
         self

@@ -91,6 +91,8 @@ pub(super) struct ShellPack<const N: usize, const V: usize, const P: usize, cons
 /// The temperatures of eight elements.
 pub(super) struct PackHeat<const N: usize, const P: usize, const E: usize> {
     pub nodes: Arc<HeatNodes>,
+    /// Factors on the change of size.
+    pub factor: Lanes,
     /// Derivatives of the strains by the change of size, and by the curvature.
     pub unit: [Strains<N, P, E>; 2],
 }
@@ -100,7 +102,7 @@ impl<const N: usize, const P: usize, const E: usize> PackHeat<N, P, E> {
     #[inline]
     pub fn less(&self, mut strains: Strains<N, P, E>, nodes: &[Node]) -> Strains<N, P, E> {
         let [growth, curvature, _] = self.nodes.strain(nodes);
-        let [growth, curvature] = [growth, curvature].map(Lanes::splat);
+        let (growth, curvature) = (self.factor * Lanes::splat(growth), Lanes::splat(curvature));
         let square = growth + Lanes::splat(0.5) * growth * growth;
         let [size, bend] = &self.unit;
         for i in 0..E {
@@ -119,15 +121,22 @@ impl<const N: usize, const P: usize, const E: usize> PackHeat<N, P, E> {
     /// The work of a stress on the second derivative of the strains by the change of size.
     pub fn second(&self, stress: &Strains<N, P, E>, lane: usize) -> f64 {
         let [size, _] = &self.unit;
-        (0..P).map(|i| (stress.plane.membrane[i] * size.plane.membrane[i]).as_array()[lane]).sum()
+        let factor = self.factor.as_array()[lane];
+        factor
+            * factor
+            * (0..P).map(|i| (stress.plane.membrane[i] * size.plane.membrane[i]).as_array()[lane]).sum::<f64>()
     }
 
     /// The derivative of the strains without stress by one of them.
     pub fn derivative(&self, of: usize, nodes: &[Node]) -> Strains<N, P, E> {
         let mut unit = self.unit[of.min(1)];
         if of == 0 {
-            let square = Lanes::splat(1.0 + self.nodes.strain(nodes)[0]);
+            let growth = self.factor * Lanes::splat(self.nodes.strain(nodes)[0]);
+            let square = Lanes::splat(1.0) + growth;
             (0..P).for_each(|i| unit.plane.membrane[i] = square * unit.plane.membrane[i]);
+            unit.plane.membrane.iter_mut().for_each(|of| *of = self.factor * *of);
+            unit.plane.bending.iter_mut().for_each(|of| *of = self.factor * *of);
+            unit.shear.iter_mut().for_each(|of| *of = self.factor * *of);
         }
         unit
     }

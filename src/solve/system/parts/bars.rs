@@ -62,15 +62,15 @@ fn lumped(part: &Bar, nodes: &[usize; 2], masses: &NodalMasses) -> LumpedElement
 
 fn block(part: &Bar, piece: Range<usize>, &Setting { model, x, .. }: &Setting) -> Box<dyn ElementBlock> {
     let beta = model.damping.beta(&part.damping);
-    let elements = &part.elements[piece];
+    let (elements, heat) = (&part.elements[piece.clone()], &part.heat.piece(piece));
     match &part.yielding {
         None => {
             let stiffness = part.axial_stiffness;
-            Box::new(bar::elastic_bars(elements, stiffness, part.tension_only, (part.free, &part.heat), x, beta))
+            Box::new(bar::elastic_bars(elements, stiffness, part.tension_only, (part.free, heat), x, beta))
         }
         Some(law) => {
             let stiffness = (part.axial_stiffness, law);
-            Box::new(YieldingBars::new(elements, stiffness, part.tension_only, (part.free, &part.heat), x, beta))
+            Box::new(YieldingBars::new(elements, stiffness, part.tension_only, (part.free, heat), x, beta))
         }
     }
 }

@@ -49,6 +49,7 @@ impl Assembled for Beam {
 fn block(part: &Beam, piece: Range<usize>, setting: &Setting) -> Box<dyn ElementBlock> {
     let &Setting { model, x, plane } = setting;
     let beta = model.damping.beta(&part.damping);
+    let heat = &part.heat.piece(piece.clone());
     let elements = part.elements[piece].iter().map(|e| BeamGeometry {
         nodes: &e.nodes,
         frame: &e.frame,
@@ -59,7 +60,7 @@ fn block(part: &Beam, piece: Range<usize>, setting: &Setting) -> Box<dyn Element
             .map(|varied| varied.points.each_ref().map(|at| (&model.stiffnesses[at.section], &at.frame))),
     });
     let elements: Vec<BeamGeometry> = elements.collect();
-    let setting = BeamSetting { x, damping: beta, heat: &part.heat };
+    let setting = BeamSetting { x, damping: beta, heat };
     match &part.yielding {
         None => elastic_beams(part.order, &elements, setting),
         Some(yielding) => {

@@ -122,7 +122,7 @@ fn alike(part: &Shell, piece: Range<usize>) -> Vec<Range<usize>> {
 fn block(part: &Shell, piece: Range<usize>, &Setting { model, x, .. }: &Setting) -> Box<dyn ElementBlock> {
     let beta = model.damping.beta(&part.damping);
     let size = part.size();
-    let heat = &part.heat;
+    let heat = &part.heat.piece(piece.clone());
     let plate = &Plate { thickness: part.thickness(piece.start), ..part.plate };
     let elements = piece.map(|index| (&part.elements[index], index)).map(|(e, index)| shell::ShellGeometry {
         thickness: Some(part.thickness(index)),

@@ -35,8 +35,9 @@ where
     pub fn heated(mut self, heat: &Heat, x: &[Vec3]) -> Self {
         let own = self.elements.iter().map(|element| &element.nodes[..]);
         let Some(nodes) = HeatNodes::new(heat, own, x).map(Arc::new) else { return self };
-        for element in &mut self.elements {
-            element.heat = Some(Box::new(CurvedHeat { nodes: Arc::clone(&nodes), unit: element.units(x) }));
+        for (e, element) in self.elements.iter_mut().enumerate() {
+            let (factor, unit) = (nodes.factor(e), element.units(x));
+            element.heat = Some(Box::new(CurvedHeat { nodes: Arc::clone(&nodes), factor, unit }));
         }
         self.heat = Some(nodes);
         self
@@ -70,7 +71,8 @@ where
                 // By the second derivative of the strains by the change of size.
                 let plane = element.elastic_stress(&element.strains(&motion, now.nodes)).plane;
                 let [size, _] = &heat.unit;
-                work[0] += plane.membrane.iter().zip(&size.plane.membrane).map(|(s, unit)| s * unit).sum::<f64>();
+                let second: f64 = plane.membrane.iter().zip(&size.plane.membrane).map(|(s, unit)| s * unit).sum();
+                work[0] += heat.factor * heat.factor * second;
             }
             work
         });

@@ -40,6 +40,8 @@ pub(super) struct CurvedShell<const N: usize, const V: usize, const P: usize, co
 /// The temperatures of an element.
 pub(super) struct CurvedHeat<const N: usize, const P: usize, const Q: usize> {
     pub nodes: Arc<HeatNodes>,
+    /// The factor on the change of size.
+    pub factor: f64,
     /// Derivatives of the strains by the change of size, and by the curvature.
     pub unit: [CurvedStrain<N, P, Q>; 2],
 }
@@ -48,6 +50,7 @@ impl<const N: usize, const P: usize, const Q: usize> CurvedHeat<N, P, Q> {
     /// Strains less those without stress. Products of slopes are of second degree in the change of size.
     pub fn less(&self, strains: CurvedStrain<N, P, Q>, nodes: &[Node]) -> CurvedStrain<N, P, Q> {
         let [growth, curvature, _] = self.nodes.strain(nodes);
+        let growth = self.factor * growth;
         let [size, bend] = &self.unit;
         let mut grown = size.less(&CurvedStrain::ZERO, growth);
         grown.plane.membrane.iter_mut().for_each(|number| *number *= 1.0 + 0.5 * growth);
@@ -58,8 +61,9 @@ impl<const N: usize, const P: usize, const Q: usize> CurvedHeat<N, P, Q> {
     pub fn derivative(&self, of: usize, nodes: &[Node]) -> CurvedStrain<N, P, Q> {
         let mut unit = self.unit[of.min(1)];
         if of == 0 {
-            let growth = self.nodes.strain(nodes)[0];
+            let growth = self.factor * self.nodes.strain(nodes)[0];
             unit.plane.membrane.iter_mut().for_each(|number| *number *= 1.0 + growth);
+            unit = unit.less(&CurvedStrain::ZERO, self.factor);
         }
         unit
     }

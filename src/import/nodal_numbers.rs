@@ -1,0 +1,22 @@
+//! Numbers of a part that differ from node to node, as the deck has them.
+
+use crate::build::Build;
+use crate::deck_text::{inline, number, quoted};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Numbers by nodes, alike ones together; a set of several nodes is named after `what`.
+pub fn by_nodes(build: &mut Build, varying: &BTreeMap<u64, f64>, what: &str) -> String {
+    let mut nodes: Vec<(f64, BTreeSet<u64>)> = Vec::new();
+    for (node, value) in varying {
+        match nodes.iter_mut().find(|(known, _)| known == value) {
+            Some((_, of)) => drop(of.insert(*node)),
+            None => nodes.push((*value, BTreeSet::from([*node]))),
+        }
+    }
+    let mut keys = Vec::new();
+    for (value, of) in nodes {
+        keys.extend(build.names(&of, &[], what).into_iter().map(|name| (quoted(&name), number(value))));
+    }
+    let keys: Vec<(&str, String)> = keys.iter().map(|(name, text)| (&name[..], text.clone())).collect();
+    inline(&keys)
+}
