@@ -546,7 +546,7 @@ fn finish(mut model: Model, all_nodes: bool, deck: &Deck, report: &mut Report) -
     if all_nodes {
         write_all_nodes(&mut model);
     }
-    add_mass_nodes(&mut model);
+    add_mass_nodes(&mut model, deck, report);
     if model.analysis.has_inertia() && !report.has_errors() {
         model.damping.frames = moving_frames(&model, deck, report);
     }

@@ -370,8 +370,9 @@ impl<'d> Expects<'_, 'd> {
         }
         let mut columns = quantities_of(at.kind);
         columns.retain(|column| beam.yields() || *column != PLASTIC_STRAIN);
-        let section = Beam::of(beam).and_then(|beam| beam.elements.first()).map(|element| element.section);
-        let has_stresses = section.and_then(|section| self.scene.parts.stresses.get(section)?.as_ref()).is_some();
+        let stresses = &self.scene.parts.stresses;
+        let has = |section: usize| stresses.get(section).is_some_and(Option::is_some);
+        let has_stresses = Beam::of(beam).is_some_and(|beam| beam.sections().all(has));
         columns.retain(|column| has_stresses || !SECTION_STRESSES.contains(column));
         Some((ExpectAt::Sections(part), columns))
     }

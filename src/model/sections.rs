@@ -12,6 +12,9 @@ use mechanics::sections::section_shape::shear_factor;
 use mechanics::sections::{CrossSection, Fibre, Section, SectionShape, SectionStresses, Stiffness};
 use std::collections::HashMap;
 
+/// The key of a section that an elastic beam does not use.
+const UNUSED: &str = "fibres";
+
 /// Largest number of fibres; a section's response no longer changes beyond it.
 const MOST_FIBRES: usize = 10_000;
 
@@ -122,15 +125,23 @@ impl<'a, 'd> Sections<'a, 'd> {
         [start, end]: [(Option<&At<String>>, usize); 2],
         made_of: &'d Maybe<String>,
         (part, place, shear): (f64, [f64; 2], bool),
+        report: &mut Report<'d>,
     ) -> usize {
         let (from, to) = (&self.stiffnesses[start.1], &self.stiffnesses[end.1]);
         let (mut stiffness, mut stresses) = (from.toward(to, part), None);
-        if let (Some(a), Some(b)) = (start.0, end.0) {
-            if a.value == b.value {
-                stresses.clone_from(&self.stresses[start.1]);
-            } else if let Some((own, of_shape)) = self.of_dimensions([a, b], made_of, part) {
-                (stiffness, stresses) = (if shear { own } else { own.without_shear() }, of_shape);
-            }
+        match (start.0, end.0) {
+            (Some(a), Some(b)) if a.value == b.value => stresses.clone_from(&self.stresses[start.1]),
+            (Some(a), Some(b)) => match self.of_dimensions([a, b], made_of, part) {
+                Some(Ok((own, of_shape))) => {
+                    (stiffness, stresses) = (if shear { own } else { own.without_shear() }, of_shape);
+                }
+                Some(Err(reason)) => {
+                    let message = format!("between sections `{}` and `{}`: {reason}", a.value, b.value);
+                    report.error::<()>(&a.span, message);
+                }
+                None => {}
+            },
+            _ => {}
         }
         if place != [0.0; 2] {
             stiffness = stiffness.beside(place);
@@ -141,33 +152,49 @@ impl<'a, 'd> Sections<'a, 'd> {
         self.stiffnesses.len() - 1
     }
 
-    /// The section whose dimensions lie at this part of the way between those of two sections of one shape; `None` where their keys differ.
+    /// The tables of two sections of one shape; `None` if their shapes differ.
+    fn of_one_shape(&self, names: [&At<String>; 2]) -> Option<[&'d At<OneOf<words::Section>>; 2]> {
+        let [a, b] = names.map(|name| self.table.position(name).map(|index| &self.table.0[index].1));
+        let (a, b) = (a?, b?);
+        std::ptr::eq(a.kind.as_ref()?.value, b.kind.as_ref()?.value).then_some([a, b])
+    }
+
+    /// A key that keeps the dimensions of two sections of one shape from being linear between them.
+    pub fn differing_key(&self, names: [&At<String>; 2]) -> Option<&'static str> {
+        let [a, b] = self.of_one_shape(names)?;
+        a.values.differs(&b.values, UNUSED)
+    }
+
+    /// The section with dimensions at this part of the way between two sections of one shape; `None` if shapes or keys differ.
+    ///
+    /// # Errors
+    /// Dimensions that do not go together.
     fn of_dimensions(
         &self,
         names: [&At<String>; 2],
         made_of: &Maybe<String>,
         part: f64,
-    ) -> Option<(Stiffness, Option<SectionStresses>)> {
-        let [a, b] = names.map(|name| self.table.position(name).map(|index| &self.table.0[index].1));
-        let (a, b) = (a?, b?);
-        let kind = a.kind.as_ref()?.value;
-        if !std::ptr::eq(kind, b.kind.as_ref()?.value) {
+    ) -> Option<Result<(Stiffness, Option<SectionStresses>), String>> {
+        let [a, b] = self.of_one_shape(names)?;
+        if a.values.differs(&b.values, UNUSED).is_some() {
             return None;
         }
-        let values = a.values.toward(&b.values, part)?;
+        let values = a.values.toward(&b.values, part, UNUSED);
         let mut given = Given::new("the section", &a.span, &values, Vec::new());
         let factor = shear_factor(&mut given);
-        match (kind.make.read)(&mut given, false)? {
-            CrossSection::Stiffness(stiffness) => Some((*stiffness, None)),
-            CrossSection::Shape(shape) => {
-                let material = self.materials.named(made_of.as_ref()?)?;
-                let (modulus, ratio) =
-                    (material.youngs_modulus.as_ref()?.value, material.poisson_ratio.as_ref()?.value);
-                let density = material.density.as_ref().map_or(0.0, |density| density.value);
-                let made = whole(&*shape, ratio, factor).ok()?;
-                Some((made.stiffness(modulus, ratio, density), shape.stresses(ratio, &made)))
-            }
-        }
+        let Some(section) = (a.kind.as_ref()?.value.make.read)(&mut given, false) else {
+            let first = given.problems.first().map_or_else(String::new, |problem| problem.message.clone());
+            return Some(Err(first));
+        };
+        let shape = match section {
+            CrossSection::Stiffness(stiffness) => return Some(Ok((*stiffness, None))),
+            CrossSection::Shape(shape) => shape,
+        };
+        let material = self.materials.named(made_of.as_ref()?)?;
+        let (modulus, ratio) = (material.youngs_modulus.as_ref()?.value, material.poisson_ratio.as_ref()?.value);
+        let density = material.density.as_ref().map_or(0.0, |density| density.value);
+        let made = whole(&*shape, ratio, factor);
+        Some(made.map(|made| (made.stiffness(modulus, ratio, density), shape.stresses(ratio, &made))))
     }
 }
 

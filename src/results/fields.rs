@@ -486,7 +486,9 @@ fn write_stresses(grid: &mut GridText, count: usize, frame: &Frame) {
                 let section = beam.elements[element].at_node(k).section;
                 let elastic = || elastic_stresses(model, section, forces).map(|stresses| stresses.values);
                 let stresses = if beam.yielding.is_some() { of_fibres } else { elastic() };
-                all.push(stresses.unwrap_or_default());
+                // Between sections of different shapes there is no stress to tell.
+                let unknown = if beam.elements[element].varied.is_some() { f64::NAN } else { 0.0 };
+                all.push(stresses.unwrap_or([unknown; 4]));
             }
         }
     }

@@ -243,3 +243,25 @@ fn matrices_that_no_section_has_are_refused() {
         assert!(told.contains(message), "{message}\n{told}");
     }
 }
+
+/// A mass beside the axis without inertia about its centre is told of where it moves in time, and its nodes have names of their own.
+#[test]
+fn points_beside_the_axis_are_told() {
+    let told = |inertia: f64| {
+        let s = skew(&Vec3::from(CENTRE));
+        let mass = rows([MASS * Mat3::identity(), -MASS * s, MASS * s, inertia * Mat3::identity() - MASS * s * s]);
+        let text = format!(
+            "analysis = {{ kind = \"dynamic\", end_time = 0.1, time_step = 1e-3 }}\npoints = {{ a = [0.0, 0.0, 0.0], b = [2.0, 0.0, 0.0], c = [2.0, 1.0, 0.0] }}\n\
+             sections.s = {{ shape = \"general\", axial_stiffness = 1e5, shear_stiffness = [1e4, 1e4], torsional_stiffness = 9.0, bending_stiffness = [1e2, 2e2], mass = {mass} }}\n\
+             beams = [{{ name = \"blade\", path = [\"a\", \"b\", \"c\"], elements = 2, section = \"s\", orientation = [0.0, 0.0, 1.0] }}]\n"
+        );
+        let source = rdsolve::diagnostic::Source::new("deck.toml", text, &[]);
+        let (model, problems) = rdsolve::model::read(&source);
+        let model = model.expect("a sound deck");
+        let labels: std::collections::HashSet<&str> = model.nodes.iter().map(|node| node.label.as_str()).collect();
+        assert_eq!(labels.len(), model.nodes.len(), "names of nodes");
+        problems.iter().map(|problem| problem.draw(&source, false)).collect::<Vec<_>>().join("\n")
+    };
+    assert_eq!(told(0.01), "");
+    assert!(told(0.0).contains("the mass of beam `blade` lies beside its axis and has no inertia about its centre"));
+}

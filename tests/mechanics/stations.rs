@@ -275,3 +275,41 @@ fn stations_that_do_not_span_the_beam_are_refused() {
     let found = problems.iter().map(|problem| problem.draw(&source, false)).collect::<Vec<_>>().join("\n");
     assert!(found.contains("beam `blade` has `stations`, and its material yields"), "{found}");
 }
+
+/// Keys that elastic beams do not use do not count; others keep dimensions from being linear, which a note tells.
+#[test]
+fn keys_that_differ_are_told() {
+    let told = |tip: &str| {
+        let sections = format!(
+            "sections.root = {{ shape = \"box\", width = 0.06, height = 0.1, thickness = 0.004, fibres = [8, 2] }}\nsections.tip = {{ {tip} }}\n"
+        );
+        let text = format!(
+            "analysis = {{ kind = \"static\", end_time = 1.0, time_step = 1.0 }}\n{}",
+            beam(2, TAPER).replace(&HEAD[HEAD.find("sections.root").expect("sections")..], &sections)
+        );
+        let source = rdsolve::diagnostic::Source::new("deck.toml", text, &[]);
+        let (_, problems) = rdsolve::model::read(&source);
+        problems.iter().map(|problem| problem.draw(&source, false)).collect::<Vec<_>>().join("\n")
+    };
+    assert_eq!(told("shape = \"box\", width = 0.03, height = 0.05, thickness = 0.003"), "");
+    let two = told("shape = \"box\", width = 0.03, height = 0.05, thickness = [0.003, 0.002]");
+    assert!(two.contains("note") && two.contains("`thickness` differs"), "{two}");
+}
+
+/// Stresses are expected of beams that have them at all places.
+#[test]
+fn stresses_are_not_expected_of_half_a_beam() {
+    let text = format!(
+        "analysis = {{ kind = \"static\", end_time = 1.0, time_step = 1.0 }}\n{}\
+         sections.end = {{ shape = \"general\", area = 0.003, moments = [1e-6, 5e-7], torsion_constant = 1e-6, shear_areas = [0.002, 0.002] }}\n\
+         expect = [{{ at = \"blade\", quantity = \"sigma_max\", peak = \"max\", value = 1.0, tolerance = 1.0, source = \"none\" }}]\n",
+        beam(
+            2,
+            "stations = [{ at = 0.0, section = \"root\" }, { at = 0.5, section = \"tip\" }, { at = 1.0, section = \"end\" }]"
+        )
+    );
+    let source = rdsolve::diagnostic::Source::new("deck.toml", text, &[]);
+    let problems = rdsolve::model::read(&source).1;
+    let told = problems.iter().map(|problem| problem.draw(&source, false)).collect::<Vec<_>>().join("\n");
+    assert!(told.contains("`sigma_max`") && told.contains("error"), "{told}");
+}

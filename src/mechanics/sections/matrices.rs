@@ -11,6 +11,9 @@ use base::words::kinds::Given;
 /// Largest difference of two entries of a matrix that are meant to be equal, over the geometric mean of their diagonals: tables have four digits.
 const SAME: f64 = 1e-4;
 
+/// Largest negative moment of inertia that counts as rounding, over the sum of those about the axis.
+const ROUNDING: f64 = 1e-9;
+
 /// Why a matrix is refused, and what to do.
 pub(super) type Refusal = [String; 2];
 
@@ -73,16 +76,18 @@ impl LaminaMass {
         let arm = skew(&center);
         let inertia = if center == Vec3::zeros() { about_axis } else { about_axis + mass * arm * arm };
         let least = inertia.symmetric_eigenvalues().min();
-        // Where tables round, a slender section may have slightly less than none about an axis.
-        if least < -SAME * about_axis.trace() {
+        if least < -ROUNDING * about_axis.trace() {
             let message = format!(
                 "`mass` is not positive: with its centre at y = {}, z = {} the moment of inertia {} about it remains",
                 short(center.y),
                 short(center.z),
                 short(least)
             );
-            return Err([message, "moments in the last three rows are about the axis of the beam".to_owned()]);
+            let hint =
+                "rows 4 to 6 of `mass` are moments about the axis: the mass times the square of the distance and more";
+            return Err([message, hint.to_owned()]);
         }
+        let inertia = if least < 0.0 { not_negative(&inertia) } else { inertia };
         Ok(LaminaMass { mass, center: [center.y, center.z], inertia })
     }
 
@@ -120,6 +125,13 @@ fn matrix(mass: f64, c: &Vec3, about_axis: &Mat3) -> Mat6 {
     M.fixed_view_mut::<3, 3>(3, 0).copy_from(&s);
     M.fixed_view_mut::<3, 3>(3, 3).copy_from(about_axis);
     M
+}
+
+/// A tensor without the negative moments that rounding leaves.
+fn not_negative(inertia: &Mat3) -> Mat3 {
+    let found = inertia.symmetric_eigen();
+    let moments = found.eigenvalues.map(|moment| moment.max(0.0));
+    found.eigenvectors * Mat3::from_diagonal(&moments) * found.eigenvectors.transpose()
 }
 
 /// Refuses a matrix with another upper half than `of_lamina`.

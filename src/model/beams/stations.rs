@@ -53,6 +53,7 @@ pub(super) fn stations<'d>(
     }
     sound?;
     check(&all, table, cx)?;
+    note_keys(&all, cx);
     Some(Stations(all))
 }
 
@@ -114,6 +115,21 @@ fn check<'d>(
         }
     }
     Some(())
+}
+
+/// Notes sections of one shape whose keys differ: dimensions are then not linear between them.
+fn note_keys<'d>(all: &[Station<'d>], cx: &mut PartContext<'_, 'd>) {
+    for pair in all.windows(2) {
+        let (Some(a), Some(b)) = (pair[0].name, pair[1].name) else { continue };
+        if let Some(key) = cx.sections.differing_key([a, b]) {
+            let message = format!(
+                "stiffness and mass are linear between sections `{}` and `{}`, not dimensions: `{key}` differs",
+                a.value, b.value
+            );
+            let hint = "give both the same keys with as many numbers; without, no stresses are written between them";
+            cx.report.note(&b.span, message, hint);
+        }
+    }
 }
 
 impl<'d> Stations<'d> {
@@ -195,7 +211,7 @@ impl<'d> Stations<'d> {
             a.section
         } else {
             let ends = [(a.name, a.section), (b.name, b.section)];
-            cx.sections.between(ends, &beam.material, (part, place, shear))
+            cx.sections.between(ends, &beam.material, (part, place, shear), cx.report)
         };
         SectionAt { section, frame }
     }

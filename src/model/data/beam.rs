@@ -48,7 +48,7 @@ pub struct BeamElement {
     pub section: usize,
     /// Sections and axes by place, where they differ.
     pub varied: Option<Box<VariedElement>>,
-    /// The nodes in which its mass lies, where that is off the axis; they move rigidly with `nodes`.
+    /// Nodes that carry its mass beside the axis and move rigidly with `nodes`; `None` of a mass on the axis.
     pub mass_nodes: Option<Box<[usize; 5]>>,
 }
 
@@ -205,6 +205,14 @@ impl PartAnswers for Beam {
 }
 
 impl Beam {
+    /// The sections of all places of all elements, by their indices.
+    pub fn sections(&self) -> impl Iterator<Item = usize> {
+        self.elements.iter().flat_map(|element| {
+            let at_nodes = (0..=self.order).map(|k| element.at_node(k).section);
+            at_nodes.chain((0..self.order).map(|g| element.at_point(g).section))
+        })
+    }
+
     /// Adds the mass of an element whose sections differ, by the masses at its nodes.
     fn take_varied(
         &self,
@@ -246,7 +254,7 @@ impl BeamElement {
         self.varied.as_ref().map_or(same, |varied| varied.points[g])
     }
 
-    /// The nodes in which its mass lies.
+    /// The nodes that carry its mass.
     pub fn mass_nodes(&self) -> &[usize; 5] {
         self.mass_nodes.as_deref().unwrap_or(&self.nodes)
     }

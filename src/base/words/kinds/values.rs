@@ -28,17 +28,22 @@ impl Values {
         self.get(key).map_or(&[], |value| &value.numbers)
     }
 
-    /// Numbers at this part of the way to those of another table; `None` where the two do not give the same keys with as many numbers.
-    pub fn toward(&self, other: &Values, part: f64) -> Option<Values> {
-        if self.0.len() != other.0.len() {
-            return None;
-        }
+    /// Numbers at this part of the way to those of another table that gives the same keys, see [`Values::differs`]; `but` is left out.
+    pub fn toward(&self, other: &Values, part: f64, but: &str) -> Values {
         let between = |value: &Value| {
-            let to = &other.get(value.key)?.numbers;
+            let to = other.numbers(value.key);
             let numbers = value.numbers.iter().zip(to).map(|(a, b)| a + part * (b - a)).collect();
-            (value.numbers.len() == to.len()).then(|| Value { numbers, ..value.clone() })
+            Value { numbers, ..value.clone() }
         };
-        self.0.iter().map(between).collect::<Option<Vec<_>>>().map(Values)
+        Values(self.0.iter().filter(|value| value.key != but).map(between).collect())
+    }
+
+    /// A key that another table does not give with as many numbers, or gives alone; `but` does not count.
+    pub fn differs(&self, other: &Values, but: &str) -> Option<&'static str> {
+        let mut all = self.0.iter().chain(&other.0).map(|value| value.key).filter(|key| *key != but);
+        all.find(|key| {
+            self.get(key).map(|value| value.numbers.len()) != other.get(key).map(|value| value.numbers.len())
+        })
     }
 
     /// The place of a key's value in the deck; `None` where it is not written.
