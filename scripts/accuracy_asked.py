@@ -49,7 +49,7 @@ COMPARED = {
     "yielding": Compared(
         "plastic_collapse",
         ("analysis.end_time=0.8", "analysis.time_step=0.1", "beams.0.elements=1"),
-        ("analysis.end_time=0.8", "analysis.time_step=0.01", "beams.0.elements=32"),
+        ("analysis.end_time=0.8", "analysis.time_step=0.02", "beams.0.elements=96"),
     ),
     "contact": Compared("tip_on_stop", (), ("contacts.0.stiffness=1e9", "beams.0.elements=4")),
     "shell": Compared(

@@ -100,7 +100,9 @@ impl PartMesh {
     /// The power of the length of an element that its error follows.
     fn slope(&self) -> f64 {
         match self.order {
-            Some(order) if !self.yields => (SLOPE * 2.0 * order as f64).max(2.0),
+            // Hinges move from point to point of the mesh.
+            _ if self.yields => 1.0,
+            Some(order) => (SLOPE * 2.0 * order as f64).max(2.0),
             _ => 2.0,
         }
     }

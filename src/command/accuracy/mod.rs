@@ -28,6 +28,8 @@ const OF_CONTACTS: f64 = 0.25;
 const OF_ELASTIC_STEPS: f64 = 0.1;
 /// Largest ratio of the estimated error to the error asked for; automatic steps have the same.
 const WITHIN: f64 = 1.5;
+/// Errors below this part of the error asked for are not worth a word.
+const ROUNDING: f64 = 1e-6;
 
 /// The settings that keep an error.
 pub struct ChosenSettings {
@@ -152,7 +154,8 @@ impl ChosenSettings {
     pub fn lines(&self) -> Vec<String> {
         let ReportedAccuracy { asked, mesh, contact, load_steps, steps, settings, pilot_runs, .. } = &self.report;
         let told = |what: &str, error: &Option<f64>| {
-            error.filter(|error| *error > 0.0).map(|error| format!("{what} {}", two_digits(error)))
+            // Smaller differences are rounding.
+            error.filter(|error| *error > ROUNDING * asked).map(|error| format!("{what} {}", two_digits(error)))
         };
         let known = [told("mesh", mesh), told("contact stiffness", contact), told("load steps", load_steps)];
         let left = steps.map(|steps| format!("{} left to time steps", two_digits(steps)));
