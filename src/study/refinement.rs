@@ -83,7 +83,8 @@ impl PartMesh {
                 ..self.clone()
             });
         }
-        let lower = self.order.filter(|order| self.raises_order && *order > 1).map(|order| order - 1);
+        // One straight element is so stiff in bending that its run may take many more steps than that of the deck.
+        let lower = self.order.filter(|order| self.raises_order && *order > 2).map(|order| order - 1);
         lower.map(|_| PartMesh { order: lower, ..self.clone() })
     }
 
@@ -191,7 +192,7 @@ mod tests {
         assert_eq!(halved.sets(&base), ["beams.0.elements=2", "beams.0.order=3"]);
         assert_eq!(by_order, OF_A_DEGREE);
         assert!((by_elements - 2f64.powf(4.8)).abs() < 1e-12);
-        assert_eq!(base.coarser().expect("a coarser mesh").0.sets(&base), ["beams.0.order=1"]);
-        assert!(beam(1, 1).coarser().is_none());
+        assert_eq!(cubic.coarser().expect("a coarser mesh").0.sets(&cubic), ["beams.0.order=2"]);
+        assert!(base.coarser().is_none());
     }
 }
