@@ -507,10 +507,8 @@ pub struct StepCard {
     pub temperatures: Vec<TemperatureLine>,
     /// True where earlier temperatures end.
     pub new_temperatures: bool,
-    /// Damping by modes, and its line.
-    pub damping: Option<(ModalDamping, usize)>,
-    /// The last mode with that damping, counted without gaps from the first.
-    pub last_damped: u64,
+    /// Damping by modes, its line, and the last mode with it, counted without gaps from the first.
+    pub damping: Option<(ModalDamping, usize, u64)>,
 }
 
 impl StepCard {

@@ -101,7 +101,7 @@ pub fn modal_damping(im: &mut Importer, block: &KeywordBlock) {
     }
     let damping = if is_rayleigh { ModalDamping::Rayleigh(values) } else { ModalDamping::Ratio(values[0]) };
     let step = im.steps.at_hand();
-    (step.damping, step.last_damped) = (Some((damping, line)), last);
+    step.damping = Some((damping, line, last));
 }
 
 /// Gives loads of steady motions their amplitudes, and joins the modes that such a motion is made of with it.
@@ -217,8 +217,8 @@ fn check_loads(im: &mut Importer, at: usize, line: usize) {
 /// Says where modes have damping that the file does not give them.
 fn check_extent(im: &mut Importer, at: usize, modes: Option<u64>) {
     let step = &im.steps.list[at];
-    if let Some((_, line)) = step.damping
-        && step.last_damped < modes.unwrap_or(u64::MAX)
+    if let Some((_, line, last)) = step.damping
+        && last < modes.unwrap_or(u64::MAX)
     {
         im.change(line, "all modes have this damping, not those alone that the file names");
     }
@@ -242,7 +242,7 @@ fn refuse_phases(im: &mut Importer, at: usize) {
 fn check_damping(im: &mut Importer, at: usize) {
     let step = &im.steps.list[at];
     let by_modes = matches!(&step.procedure, Some((StepProcedure::Response(card), _)) if !card.is_direct);
-    if let Some((ModalDamping::Ratio(_), line)) = step.damping
+    if let Some((ModalDamping::Ratio(_), line, _)) = step.damping
         && !by_modes
     {
         im.refuse(line, "rdsolve computes this step without modes: give *MODAL DAMPING, RAYLEIGH");
@@ -268,7 +268,7 @@ pub fn rayleigh(im: &mut Importer) -> Option<([f64; 2], usize)> {
         .iter()
         .filter(|step| matches!(step.procedure, Some((StepProcedure::Dynamic { .. } | StepProcedure::Response(_), _))))
         .map(|step| match step.damping {
-            Some((ModalDamping::Rayleigh(values), line)) => Some((values, line)),
+            Some((ModalDamping::Rayleigh(values), line, _)) => Some((values, line)),
             _ => None,
         })
         .collect();

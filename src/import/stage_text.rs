@@ -38,7 +38,7 @@ pub fn stages(build: &mut Build) {
         let table = table.text("kind", kind(procedure));
         let table = times(table, procedure, build.timeline.is_staged());
         let table = match step.damping {
-            Some((ModalDamping::Ratio(ratio), _)) => table.number("damping_ratio", ratio),
+            Some((ModalDamping::Ratio(ratio), ..)) => table.number("damping_ratio", ratio),
             _ => table,
         };
         let scheme = scheme(procedure);

@@ -150,7 +150,12 @@ fn gravity_after_modes() {
     let (code, said, problems) = super::command::rdsolve(folder.path(), &["a.inp"]);
     assert_eq!((code, problems.contains("equilibrium")), (0, false), "{said}{problems}");
     let nodes = std::fs::read_to_string(folder.path().join("a.out/nodes.csv")).unwrap();
-    let numbers = nodes.lines().rfind(|line| line.contains("mesh.2")).unwrap().split(',').filter_map(|word| word.parse::<f64>().ok());
+    let numbers = nodes
+        .lines()
+        .rfind(|line| line.contains("mesh.2"))
+        .unwrap()
+        .split(',')
+        .filter_map(|word| word.parse::<f64>().ok());
     // The trapezoidal rule has parabolas to rounding.
     assert!(numbers.into_iter().any(|x| (x + 9.81 * 0.01 / 2.0).abs() < 1e-12), "{nodes}");
 }

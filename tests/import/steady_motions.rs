@@ -57,7 +57,9 @@ fn moved_supports() {
     }
     let text = edited(&deck("steady"), &[("*PHYSICAL", base), (loads, "*BASE MOTION, DOF=1, AMPLITUDE=A\n")]);
     assert!(
-        reasons(&imported(&text), KeywordVerdict::Changed).iter().any(|how| how.contains("CalculiX adds its motion"))
+        reasons(&imported_from(&text, None), KeywordVerdict::Changed)
+            .iter()
+            .any(|how| how.contains("CalculiX adds its motion"))
     );
     let varies = edited(&text, &[("0., 7., 9., 7.", "0., 7., 9., 8.")]);
     refuses(&varies, &[], "one value at all frequencies");
