@@ -6,7 +6,7 @@ use import::Dialect;
 
 /// Two rows of nodes, filled; elements of shells and beams, copied and turned.
 const MADE: &str = "*NODE, NSET=all\n1, 0., 0., 0.\n5, 4., 0., 0.\n105, 4., 2., 0.\n101, 0., 2., 0.\n*NGEN, NSET=low\n1, 5, 2\n\
-    *NGEN, NSET=high\n105, 101, 2\n*NFILL, NSET=all\nlow, high, 2, 50\n*ELEMENT, TYPE=S4\n1, 1, 3, 53, 51\n*ELGEN, ELSET=skin\n\
+    *NGEN, NSET=high\n101, 105, 2\n*NFILL, NSET=all\nlow, high, 2, 50\n*ELEMENT, TYPE=S4\n1, 1, 3, 53, 51\n*ELGEN, ELSET=skin\n\
     1, 2, 2, 1, 2, 50, 2\n*NCOPY, OLD SET=low, NEW SET=far, CHANGE NUMBER=1000, SHIFT\n0., 0., 1.\n0., 0., 0., 0., 0., 1., 180.\n\
     *ELEMENT, TYPE=B31, ELSET=rib\n50, 1, 3\n*ELGEN, ELSET=rib\n50, 2, 2\n*ELCOPY, OLD SET=rib, NEW SET=ribs, ELEMENT SHIFT=100, SHIFT NODES=1000\n";
 const WRITTEN: &str = "*NODE\n1, 0., 0., 0.\n3, 2., 0., 0.\n5, 4., 0., 0.\n51, 0., 1., 0.\n53, 2., 1., 0.\n55, 4., 1., 0.\n\

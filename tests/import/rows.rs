@@ -230,10 +230,9 @@ fn loads_on_parts() {
     refuses(SHELL, &[named, ("*CLOAD\n3, 3, 5.", &spun.replace("*DLOAD", "*DLOAD, AMPLITUDE=A"))], "without AMPLITUDE");
     // Squares of 25 and 100 in two linear steps are speeds of 5 and 10.
     let second = format!("*END STEP\n*STEP\n*STATIC\n1., 1.\n{}\n*END STEP\n", spun.replace("25.", "100."));
-    let linear = [
-        ("*STEP, NLGEOM\n*STATIC\n0.5, 1.\n*CLOAD\n3, 3, 5.", &*format!("*STEP\n*STATIC\n1., 1.\n{spun}")),
-        ("*END STEP\n", &second),
-    ];
+    let first = format!("*STEP\n*STATIC\n1., 1.\n{spun}");
+    let linear: [(&str, &str); 2] =
+        [("*STEP, NLGEOM\n*STATIC\n0.5, 1.\n*CLOAD\n3, 3, 5.", &first), ("*END STEP\n", &second)];
     has(SHELL, &linear, None, "points = [[0.0, 0.0], [1.0, 0.5], [2.0, 1.0]]\n");
     has(SHELL, &linear, None, "speed = 10.0");
     let beside = "*ELEMENT, TYPE=MASS, ELSET=w\n5, 3\n*MASS, ELSET=w\n3.\n*BOUNDARY";
