@@ -37,7 +37,8 @@ pub struct Amplitude {
     /// Unit of the values of a file, such as "g", "m/s2", "cm/s2", "m/s" or "cm". rdsolve converts them to `units`. Every `scale` is then a
     /// factor on the whole record. Default: that of the header. (table)
     pub unit: Maybe<String>,
-    /// Time shift of all points. Default: 0; a record of ground motion from a file begins with the first dynamic stage. (table)
+    /// Time shift of all points. Default: 0; a file of `base_acceleration` whose times begin at 0 begins with the first dynamic stage.
+    /// (table)
     pub shift: Maybe<f64>,
     /// Value before the first time. Default: the first value, with a warning if it is not zero and the run starts earlier. (table)
     pub before: Maybe<Beyond>,

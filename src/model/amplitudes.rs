@@ -7,6 +7,7 @@ use super::stages::CurrentStage;
 use super::values::keys;
 use base::diagnostic::{At, Span};
 use base::math::cubic_curve::{CubicCurve, CurveShape};
+use base::names::short;
 use deck::Deck;
 use deck::amplitudes as words;
 use deck::words::{Maybe, Table};
@@ -23,8 +24,15 @@ pub(super) fn amplitudes<'d>(
     let record = |index: usize| records.get(index).and_then(Option::as_ref);
     let all = deck.amplitudes.0.iter().enumerate();
     let read = all.map(|(index, (name, amplitude))| {
-        let record = record(index).map(|record| (record, conversion(deck, index, record).unwrap_or(1.0)));
-        let waits = stage.and_then(|stage| stage.start_of_motion()).filter(|_| waits_for_motion(deck, index));
+        let file = record(index);
+        let waits = stage.and_then(|stage| stage.start_of_motion());
+        let waits = waits.filter(|_| file.is_some_and(|record| waits_for_motion(deck, index, record)));
+        if let (Some((time, name)), Some(file)) = (waits, &amplitude.file) {
+            let message = format!("the record `{}` begins at t = {}, with stage `{name}`", file.value, short(time));
+            report.note(&file.span, message, "`shift = 0.0` counts its times from t = 0");
+        }
+        let waits = waits.map(|(time, _)| time);
+        let record = file.map(|record| (record, conversion(deck, index, record).unwrap_or(1.0)));
         let read = read_amplitude(&name.value, amplitude, (record, waits.is_some()), report);
         let read = read.unwrap_or(Amplitude::Constant);
         match waits.or_else(|| stage.map(|stage| stage.clock(&amplitude.stage))) {

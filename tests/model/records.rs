@@ -386,7 +386,8 @@ fn a_record_begins_with_the_motion() {
                   kind = \"dynamic\"\nduration = 2.0\ntime_step = 0.005\n";
     let staged = alone.replace(one, stages);
     assert_ne!(staged, alone);
-    assert_eq!(run(folder, &staged, &record, "staged"), (0, String::new()));
+    let (code, found) = run(folder, &staged, &record, "staged");
+    assert!(code == 0 && found.contains("begins at t = 1, with stage `quake`"), "{found}");
     let (alone, after) = (rows(folder, "alone", "x"), rows(folder, "staged", "x"));
     // Three rows of the static stage; the last is the first of the motion.
     let after = &after[after.len() - alone.len()..];
@@ -397,6 +398,18 @@ fn a_record_begins_with_the_motion() {
     }
     let shifted = staged.replace("after = \"zero\"", "after = \"zero\"\nshift = 0.0");
     assert_eq!(run(folder, &shifted, &record, "shifted").0, 0);
+    // Times that do not begin at 0 are those of the run, and so is a record that a load shares.
+    let timed: String =
+        record.lines().enumerate().map(|(k, value)| format!("{},{value}\n", 1.0 + 0.005 * k as f64)).collect();
+    let absolute = staged.replace("time_step = 0.005\nafter", "before = \"zero\"\nafter");
+    assert_eq!(run(folder, &absolute, &timed, "absolute"), (0, String::new()));
+    let found = rows(folder, "absolute", "x");
+    let largest_error =
+        found[found.len() - alone.len()..].iter().zip(&alone).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(largest_error < 1e-9 * largest, "{largest_error}");
+    let shared = format!("{staged}[[loads]]\nat = \"mass\"\nforce = [0.0, 0.0, 1.0]\namplitude = \"quake\"\n");
+    let (_, found) = run(folder, &shared, &record, "shared");
+    assert!(!found.contains("with stage `quake`"), "{found}");
     let pushed = rows(folder, "shifted", "x")[2] - 1.0;
     // The static displacement m a/k of the value at t = 1.
     let exact = -2.0 * (0.3 + pulse(200)) / 500.0;
@@ -429,6 +442,11 @@ fn a_unit_leaves_the_scale_to_be_a_factor() {
     for (head, keys, said) in [
         ("", "unit = \"g\"", "`unit` converts a record to the units of the deck"),
         (si, "unit = \"furlong\"", "`furlong` is no unit of a motion"),
+        (
+            si,
+            "unit = \"g\"\n[amplitudes.load]\nkind = \"table\"\nfile = \"record.csv\"\nunit = \"g\"",
+            "amplitude `load` gives none",
+        ),
         (si, "unit = \"cm/s2\"", "the header of the file says G"),
     ] {
         let (code, found) = run(folder, &deck(head, keys), &at2, "out");

@@ -26,6 +26,13 @@ struct Use<'d> {
 
 /// Warns of records used as another quantity than their own, and of records in other units than the deck without a conversion.
 pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut Report) {
+    for (name, words) in &deck.amplitudes.0 {
+        let is_this = |used: &Use| used.amplitude.as_ref().is_some_and(|own| own.value == name.value);
+        if let Some(at) = words.unit.as_ref().filter(|_| !uses(deck).iter().any(is_this)) {
+            let message = format!("`unit` converts records of a motion, and amplitude `{}` gives none", name.value);
+            report.error_with::<()>(&at.span, message, "leave it out, and give `scale`");
+        }
+    }
     for used in uses(deck) {
         let Some(name) = used.amplitude else { continue };
         let Some(index) = deck.amplitudes.position(name) else { continue };
@@ -62,17 +69,26 @@ pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut 
     }
 }
 
-/// True for a record that begins with the first dynamic stage. It moves the ground or a support by accelerations or velocities, and the deck
-/// gives no time for its begin.
-pub fn waits_for_motion(deck: &Deck, index: usize) -> bool {
+/// True for a record of the ground that begins with the first dynamic stage: its times count from 0, it moves nothing but the ground, and the
+/// deck gives no time for its begin.
+pub fn waits_for_motion(deck: &Deck, index: usize, record: &Record) -> bool {
     let (name, words) = &deck.amplitudes.0[index];
-    let is_this = |used: &Use| used.amplitude.as_ref().is_some_and(|own| own.value == name.value);
-    let mut used = uses(deck).into_iter().filter(is_this).peekable();
-    words.file.is_some()
-        && words.shift.is_none()
-        && words.stage.is_none()
-        && used.peek().is_some()
-        && used.all(|used| used.quantity != MotionQuantity::Displacement)
+    let is_this = |own: &Maybe<String>| own.as_ref().is_some_and(|own| own.value == name.value);
+    let mut ground = deck.environment.iter().flat_map(|environment| &environment.base_acceleration);
+    let shakes = ground.any(|base| is_this(&base.amplitude));
+    let weighs = deck.environment.as_ref().is_some_and(|environment| is_this(&environment.gravity_amplitude));
+    let moves = deck.supports.iter().filter_map(|support| support.motion.as_ref()).any(|motions| {
+        let all = [&motions.ux, &motions.uy, &motions.uz, &motions.rx, &motions.ry, &motions.rz];
+        all.into_iter().flatten().any(|motion| is_this(&motion.amplitude))
+    });
+    let drives = deck.joints.iter().any(|joint| {
+        joint.motion.as_ref().is_some_and(|motion| is_this(&motion.amplitude))
+            || joint.effort.as_ref().is_some_and(|effort| is_this(&effort.amplitude))
+    });
+    let loads = deck.loads.iter().any(|load| is_this(&load.amplitude));
+    let begins_at_zero = record.points.first().is_some_and(|[time, _]| *time == 0.0);
+    let is_open = words.shift.is_none() && words.stage.is_none();
+    shakes && is_open && begins_at_zero && !(weighs || moves || drives || loads)
 }
 
 /// The factor from the unit of a record to the units of the deck. `None` if the deck has no `units`, or if it has a `scale` at the amplitude or

@@ -127,10 +127,11 @@ impl<'d> CurrentStage<'d> {
         named.map_or(0.0, |index| self.sequence.stages[index].begin)
     }
 
-    /// The start of the first dynamic stage, if other stages with time come before it: there a record of the ground begins.
-    pub fn start_of_motion(&self) -> Option<f64> {
+    /// The start and the name of the first dynamic stage, if other stages with time come before it: there a record of the ground begins.
+    pub fn start_of_motion(&self) -> Option<(f64, &'d str)> {
         let first = self.sequence.first_dynamic()?;
-        self.sequence.before(first).map(|_| self.sequence.stages[first].begin)
+        let stage = &self.sequence.stages[first];
+        self.sequence.before(first).map(|_| (stage.begin, stage.name.as_str()))
     }
 
     /// True where an earlier stage is dynamic.
