@@ -109,21 +109,24 @@ fn near<'d>(
     if report.positive("within", within).is_none() || spots.is_empty() {
         return spots;
     }
-    let centers: Vec<Vec3> = match target {
-        Target::Body(body) => vec![nodes.x(scene.bodies[*body].node)],
-        Target::Part(_, beam) => {
-            scene.parts.entry(*beam).into_iter().flat_map(|entry| &entry.nodes).map(|&node| nodes.x(node)).collect()
-        }
+    let own: HashSet<usize> = match target {
+        Target::Body(body) => HashSet::from([scene.bodies[*body].node]),
+        Target::Part(_, beam) => scene.parts.entry(*beam).into_iter().flat_map(|entry| &entry.nodes).copied().collect(),
     };
+    // The nodes of the target itself are near, and attach nothing.
+    spots.retain(|spot| !own.contains(&spot.node));
+    let centers: Vec<Vec3> = own.iter().map(|&node| nodes.x(node)).collect();
     let distance = |node: usize| centers.iter().map(|x| (nodes.x(node) - x).norm()).fold(f64::INFINITY, f64::min);
-    let nearest = spots.iter().map(|spot| distance(spot.node)).fold(f64::INFINITY, f64::min);
+    for of in spots.chunk_by(|a, b| a.span == b.span) {
+        let nearest = of.iter().map(|spot| distance(spot.node)).fold(f64::INFINITY, f64::min);
+        if nearest > at.value * (1.0 + SAME) {
+            let message = format!("no node of this lies within {}", short(at.value));
+            let hint = format!("the nearest is {} away: give more, or divide the mesh there", short(nearest));
+            report.error_with::<()>(of[0].span, message, hint);
+        }
+    }
     // A node on the circle counts, whatever the last digits of the deck are.
     spots.retain(|spot| distance(spot.node) <= at.value * (1.0 + SAME));
-    if spots.is_empty() {
-        let message = format!("no node of `nodes` lies within {}", short(at.value));
-        let hint = format!("the nearest is {} away: give more, or divide the mesh there", short(nearest));
-        report.error_with::<()>(&at.span, message, hint);
-    }
     spots
 }
 

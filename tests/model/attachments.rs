@@ -71,12 +71,30 @@ fn distances_of_attachments_are_checked() {
         read(&format!("{body}[[attachments]]\nbody = \"nut_body\"\nnodes = \"plate\"\nwithin = 0.01\n"));
     // The node in the middle and four around it, on the circle.
     assert_eq!(model.unwrap_or_else(|| panic!("{said:?}")).constraints.dependents.len(), 6);
+    // Each name must have a node there.
+    let far = "[[attachments]]\nbeam = \"bolt\"\nnodes = [\"plate\", \"a\"]\nwithin = 0.015\n";
+    let (model, said) = read(far);
+    assert!(model.is_none() && said.iter().any(|said| said.contains("no node of this lies within 0.015")), "{said:?}");
     for (within, words) in [
-        ("5e-4", "no node of `nodes` lies within 0.0005 the nearest is 0.001 away"),
+        ("5e-4", "no node of this lies within 0.0005 the nearest is 0.001 away"),
         ("0.0", "`within` must be above zero"),
         ("-1.0", "`within` must be above zero"),
     ] {
         let (model, said) = read(&format!("[[attachments]]\nbeam = \"bolt\"\nnodes = \"plate\"\nwithin = {within}\n"));
         assert!(model.is_none() && said.iter().any(|said| said.contains(words)), "{within}: {said:?}");
+    }
+}
+
+/// A circle by its diameter or its radius is the tube whose wall is as thick as its radius.
+#[test]
+fn a_circle_is_a_full_tube() {
+    let of = |keys: &str| {
+        let text = PLATE.replace("shape = \"circle\"\ndiameter = 0.012", keys);
+        let (model, said) = model::read(&Source::new("deck.toml", &text, &[]));
+        format!("{:?}", model.unwrap_or_else(|| panic!("{said:?}")).stiffnesses)
+    };
+    let tube = of("shape = \"tube\"\nradius = 0.006\nthickness = 0.006");
+    for circle in ["shape = \"circle\"\ndiameter = 0.012", "shape = \"round\"\nradius = 0.006"] {
+        assert_eq!(of(circle), tube);
     }
 }

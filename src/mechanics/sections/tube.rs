@@ -65,7 +65,7 @@ impl SectionShape for Tube {
 
     fn lay_fibres(&self, counts: [usize; 2], section: &Section) -> Result<Vec<Fibre>, String> {
         if counts[0] < 4 {
-            return Err("a tube needs at least 4 fibres around".into());
+            return Err("a round section needs at least 4 fibres around".into());
         }
         Ok(tube_fibres(self.radius, self.radius - self.thickness, section.shear[0], counts))
     }
