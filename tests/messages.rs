@@ -1855,3 +1855,28 @@ fn shells_beside_their_nodes() {
     assert_snapshot!("offset_of_a_rigid_shell", shell("rigid = true\noffset = 0.02\n"));
     assert_snapshot!("nodal_thickness", shell("nodal_thickness = { \"wall.edge1\" = 0.0, block = 0.1, wal = 0.1 }\n"));
 }
+
+/// Lines of comments of another language are one error, and hide nothing below them.
+#[test]
+fn comments_of_other_languages_hide_nothing() {
+    let found = said(
+        &format!("// the portal\n{}", PORTAL.replace("[sections.square]", "  // a section\n[sections.square]")),
+        &[],
+    );
+    assert!(
+        found.contains("`//` begins no comment in TOML") && found.contains("the same goes for 1 more lines"),
+        "{found}"
+    );
+    assert_eq!(found.matches("error").count(), 1, "{found}");
+    // Within a text of several lines they may be meant.
+    let text = PORTAL.replace("title = \"Portal frame hit by a block\"", "title = \"\"\"\n// a title\n\"\"\"");
+    assert_eq!(said(&text, &[]), "");
+}
+
+/// Groups of directions stand in lists beside single ones.
+#[test]
+fn lists_of_directions_take_groups() {
+    assert_eq!(portal(&[("fix = \"all\"", "fix = [\"translations\", \"rx\", \"ry\", \"rz\"]")]), "");
+    let found = portal(&[("fix = \"all\"", "fix = [\"translation\"]")]);
+    assert!(found.contains("did you mean `translations`?"), "{found}");
+}

@@ -580,6 +580,10 @@ fn degrees_are_said() {
         (hinge("limits = [-10.0, 0.0]\nlimit_stiffness = 1e3"), "-10 radians"),
         (hinge("stiffness = 1.0\nrest = 45.0"), "45 radians"),
         (hinge(&format!("motion = {{ position = 90.0, amplitude = \"a\" }}\n{ramp}")), "90 degrees are 1.571 radians"),
+        (
+            hinge(&format!("motion = {{ position = -20.0, amplitude = \"a\" }}\n{ramp}")),
+            "-20 degrees are -0.3491 radians",
+        ),
         (turned(1.0, "[[0.0, 0.0], [0.1, 180.0]]"), "180 degrees"),
         (support(-45.0), "-45 degrees"),
         (sine(90.0), "`phase_degrees`"),

@@ -1011,3 +1011,18 @@ fn shear_forces_of_triangles_are_the_same_in_a_later_stage() {
     // The plate carries 100 N/m past every section; it is warped, and its corners take 3 %.
     assert!((mean / 100.0 - 1.0).abs() < 0.05, "{mean}");
 }
+
+/// A stage that moves a displacement needs no duration: its load factor goes to 1, as in an analysis of its own.
+#[test]
+fn a_pushed_stage_needs_no_duration() {
+    let text = |duration: &str| {
+        format!(
+            "{CANTILEVER}{}[[stages]]\nname = \"push\"\nkind = \"static\"\ncontrol = \"displacement\"\n{duration}\
+             stop = {{ at = \"tip\", quantity = \"uz\", value = -0.02 }}\n[[loads]]\nat = \"tip\"\nforce = [0.0, 0.0, -1e4]\nstages = [\"push\"]\n",
+            stage("weight", "static", 1.0, 1.0, "")
+        )
+    };
+    let [with, without] = ["duration = 1.0\n", ""].map(|duration| rows(&text(duration), &mut displacement("tip")));
+    assert_eq!(with, without);
+    assert!(with.last().is_some_and(|row| (row[3] + 0.02).abs() < 1e-9), "{with:?}");
+}
