@@ -2,7 +2,7 @@
 
 use super::command::{folder, rdsolve};
 use super::rows::{BEAM, edited, has, refuses};
-use super::{deck, imported, imported_from, reasons, refusals, tables};
+use super::{deck, imported_from, reasons, refusals, tables};
 use import::{Dialect, KeywordVerdict};
 use std::f64::consts::TAU;
 
