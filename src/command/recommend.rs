@@ -10,6 +10,7 @@ use super::written_deck::with_entries;
 use base::diagnostic::Diagnostic;
 use clap::Args;
 use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
 
 #[derive(Debug, Args)]
 #[command(
@@ -63,7 +64,7 @@ pub fn recommend(args: &RecommendArgs) -> Result<(), Exit> {
     if !args.quiet {
         show(&loaded.warnings, &loaded.source);
     }
-    let (settled, chosen) = settle(loaded, usize::from(args.threads)).map_err(|(problems, source)| {
+    let (settled, chosen) = settle(loaded, usize::from(args.threads), &AtomicBool::new(false)).map_err(|(problems, source)| {
         show(&problems, &source);
         Exit::DeckInvalid
     })?;
@@ -79,7 +80,8 @@ pub fn recommend(args: &RecommendArgs) -> Result<(), Exit> {
     let Some(written) = with_entries(&text, &entries, "analysis.accuracy") else {
         let sets: String = entries.iter().map(|entry| format!(" --set '{entry}'")).collect();
         complain(&format!(
-            "the settings cannot be written into the text of this deck, whose tables stand in single lines\n  help: rdsolve run {}{sets}",
+            "the settings cannot be written into the text of this deck, whose tables stand in single lines\n  help: remove `accuracy` \
+             from it, then rdsolve run {}{sets}",
             args.deck.display()
         ));
         return Err(Exit::DeckInvalid);

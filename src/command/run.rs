@@ -130,7 +130,8 @@ pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<Status
     };
     let loaded = build(source, sets).map_err(|(problems, source)| faults(&problems, &source))?;
     go_on_unless(stop)?;
-    let (mut loaded, chosen) = settle(loaded, 1).map_err(|(problems, source)| faults(&problems, &source))?;
+    let (mut loaded, chosen) = settle(loaded, 1, stop).map_err(|(problems, source)| faults(&problems, &source))?;
+    go_on_unless(stop)?;
     refuse_changed(&loaded, files)?;
     for model in std::iter::once(&mut loaded.model).chain(&mut loaded.later) {
         model.output.only.clone_from(only);
@@ -216,7 +217,7 @@ pub enum CaseFault {
 /// Chooses and shows the settings for the accuracy of a deck, and measures the seconds of the pilot runs.
 fn settled(loaded: Loaded, threads: usize, quiet: bool) -> Result<(Loaded, Option<ChosenSettings>, f64), Exit> {
     let began = Instant::now();
-    let (loaded, chosen) = settle(loaded, threads).map_err(|(problems, source)| {
+    let (loaded, chosen) = settle(loaded, threads, &AtomicBool::new(false)).map_err(|(problems, source)| {
         show(&problems, &source);
         Exit::DeckInvalid
     })?;

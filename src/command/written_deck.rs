@@ -50,7 +50,12 @@ fn item<'t, 'i>(list: &'t [Spanned<DeValue<'i>>], word: &str) -> Option<&'t DeTa
 fn with_entry(text: &str, path: &[&str], value: &str) -> Option<String> {
     let root = DeTable::parse(text).ok()?.into_inner();
     let (last, parents) = path.split_last()?;
-    let table = holder(&root, parents)?;
+    let Some(table) = holder(&root, parents) else {
+        // A missing table begins at the end of the text.
+        let [table] = parents else { return None };
+        let is_new = !root.contains_key(*table);
+        return is_new.then(|| format!("{}\n\n[{table}]\n{last} = {value}\n", text.trim_end()));
+    };
     let written = match table.get(*last) {
         Some(found) => format!("{}{value}{}", &text[..found.span().start], &text[found.span().end..]),
         None => {
@@ -103,5 +108,11 @@ mod tests {
         let text = "beams = [{ name = \"mast\" }]\n";
         let written = with_entries(text, &["beams.mast.order=3".to_owned()], "analysis.accuracy");
         assert_eq!(written.as_deref(), Some("beams = [{ order = 3, name = \"mast\" }]\n"));
+    }
+
+    #[test]
+    fn a_missing_table_comes_last() {
+        let written = with_entries("title = \"mast\"\n", &["output.nodes=\"all\"".to_owned()], "analysis.accuracy");
+        assert_eq!(written.as_deref(), Some("title = \"mast\"\n\n[output]\nnodes = \"all\"\n"));
     }
 }

@@ -1,6 +1,6 @@
 //! The choice of load steps in statics. They cause errors in path-dependent models: yielding, friction.
 
-use super::numbers::{number, two_digits};
+use super::numbers::two_digits;
 use super::pilots::Pilots;
 use model::StepLength;
 use results::observed::ObservedRun;
@@ -25,7 +25,7 @@ pub struct ChosenSteps {
 pub fn choose_load_steps(pilots: &mut Pilots, (sets, observed): (&[String], &ObservedRun), share: f64) -> ChosenSteps {
     let mut chosen = ChosenSteps { set: None, error: None, remarks: Vec::new() };
     let StepLength::Fixed { step } = pilots.model.analysis.step_length else { return chosen };
-    let with = |step: f64| [sets, &[format!("analysis.time_step={}", number(step))]].concat();
+    let with = |step: f64| [sets, &[format!("analysis.time_step={step:e}")]].concat();
     if pilots.model.analysis.duration() > 1.5 * step {
         let longer = pilots.run(&with(2.0 * step)).and_then(|longer| pilots.difference(observed, &longer));
         chosen.error = longer.ok().map(|difference| difference.size);
@@ -43,7 +43,7 @@ pub fn choose_load_steps(pilots: &mut Pilots, (sets, observed): (&[String], &Obs
             Ok((run, difference)) => {
                 step /= parts;
                 chosen.error = Some(difference.size / (parts - 1.0));
-                chosen.set = Some(format!("analysis.time_step={}", number(step)));
+                chosen.set = Some(format!("analysis.time_step={step:e}"));
                 own = Some(run);
             }
             Err(reason) => {

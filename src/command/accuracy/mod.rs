@@ -20,6 +20,7 @@ use numbers::{rounded_down, two_digits};
 use pilots::Pilots;
 use results::result_json::{ReportedAccuracy, ReportedStepError};
 use solve::Counts;
+use std::sync::atomic::AtomicBool;
 use study::{CoarserMesh, RefinableParts, mesh_groups};
 
 /// The share of contacts with open stiffness in the error.
@@ -28,7 +29,7 @@ const OF_CONTACTS: f64 = 0.25;
 const OF_ELASTIC_STEPS: f64 = 0.1;
 /// Largest ratio of the estimated error to the error asked for; automatic steps have the same.
 const WITHIN: f64 = 1.5;
-/// Errors below this part of the error asked for are not worth a word.
+/// Errors below this part of the error asked for are rounding.
 const ROUNDING: f64 = 1e-6;
 
 /// The settings that keep an error.
@@ -43,11 +44,15 @@ pub struct ChosenSettings {
 ///
 /// # Errors
 /// The deck is not valid with the settings that were chosen.
-pub fn settle(loaded: Loaded, threads: usize) -> Result<(Loaded, Option<ChosenSettings>), (Vec<Diagnostic>, Source)> {
+pub fn settle(
+    loaded: Loaded,
+    threads: usize,
+    stop: &AtomicBool,
+) -> Result<(Loaded, Option<ChosenSettings>), (Vec<Diagnostic>, Source)> {
     let (Some(asked), (Some(deck), _)) = (loaded.model.analysis.accuracy, deck::read(&loaded.source)) else {
         return Ok((loaded, None));
     };
-    let chosen = choose(&loaded, &deck, asked, threads);
+    let chosen = choose(&loaded, &deck, asked, (threads, stop));
     let sets: Vec<String> =
         loaded.source.sets.iter().map(|(_, set)| set).chain(&chosen.report.settings).cloned().collect();
     let source = Source::new(loaded.source.path.clone(), loaded.source.text.clone(), &sets);
@@ -57,10 +62,10 @@ pub fn settle(loaded: Loaded, threads: usize) -> Result<(Loaded, Option<ChosenSe
 }
 
 /// Chooses the settings for an error of a sound deck.
-fn choose(loaded: &Loaded, deck: &Deck, asked: f64, threads: usize) -> ChosenSettings {
+fn choose(loaded: &Loaded, deck: &Deck, asked: f64, (threads, stop): (usize, &AtomicBool)) -> ChosenSettings {
     let (source, model) = (&loaded.source, &loaded.model);
     let (effort, runs) = (Counts::default(), 0);
-    let mut pilots = Pilots { source, deck, model, tolerance: asked, threads, runs, effort };
+    let mut pilots = Pilots { source, deck, model, tolerance: asked, threads, stop, runs, effort };
     let mut report = ReportedAccuracy { asked, ..ReportedAccuracy::default() };
     let mut coarser = None;
     match pilots.run(&[]) {
@@ -69,6 +74,12 @@ fn choose(loaded: &Loaded, deck: &Deck, asked: f64, threads: usize) -> ChosenSet
             let open = open_contacts(&pilots);
             let shares = Shares::new(asked, model, &groups, !open.is_empty());
             report.remarks.extend((!fixed.is_empty()).then(|| super::mesh_error::of_file(&fixed)));
+            report.remarks.extend(model.reductions.iter().map(|reduction| {
+                format!(
+                    "the error of the modes of {} is not known. Compare with a run with more modes in `reduced`",
+                    reduction.title
+                )
+            }));
             let has_mesh = !groups.is_empty();
             let mut mesh = choose_mesh(&mut pilots, groups, shares.mesh, observed);
             (report.mesh, report.settings) = (mesh.error.filter(|_| has_mesh && fixed.is_empty()), mesh.sets);
@@ -154,8 +165,10 @@ impl ChosenSettings {
     pub fn lines(&self) -> Vec<String> {
         let ReportedAccuracy { asked, mesh, contact, load_steps, steps, settings, pilot_runs, .. } = &self.report;
         let told = |what: &str, error: &Option<f64>| {
-            // Smaller differences are rounding.
-            error.filter(|error| *error > ROUNDING * asked).map(|error| format!("{what} {}", two_digits(error)))
+            error.map(|error| match error > ROUNDING * asked {
+                true => format!("{what} {}", two_digits(error)),
+                false => format!("{what} below rounding"),
+            })
         };
         let known = [told("mesh", mesh), told("contact stiffness", contact), told("load steps", load_steps)];
         let left = steps.map(|steps| format!("{} left to time steps", two_digits(steps)));

@@ -27,6 +27,8 @@ pub struct Pilots<'a> {
     /// The tolerance of automatic steps.
     pub tolerance: f64,
     pub threads: usize,
+    /// True once a signal has asked for the end of all runs.
+    pub stop: &'a AtomicBool,
     /// Number of runs so far, and their effort.
     pub runs: usize,
     pub effort: Counts,
@@ -44,8 +46,7 @@ impl Pilots<'_> {
         model.output.cadence = Cadence::Steps(usize::MAX);
         let system = System::new(&model)?;
         let plan = Plan::new(&model, &system, self.threads);
-        let stop = AtomicBool::new(false);
-        let run = Run::new(&model, &system, &plan, wanted(&model).where_due(), &stop);
+        let run = Run::new(&model, &system, &plan, wanted(&model).where_due(), self.stop);
         let mut run = run.map_err(|error| error.to_string())?;
         let mut observed = ObservedRun::new(&model);
         let is_automatic = matches!(model.analysis.step_length, StepLength::ErrorControlled { .. });
