@@ -4,17 +4,17 @@ use super::source::{CRATES, lines_below};
 
 /// Lines of the sources below src by crate, `program` for what lies beside them.
 const BUDGET: [(&str, usize); 11] = [
-    ("base", 6760),
+    ("base", 6790),
     ("linear", 4250),
-    ("mechanics", 33_030),
-    ("deck", 5255),
-    ("import", 8450),
-    ("model", 24_960),
-    ("solve", 33_790),
-    ("results", 10_950),
-    ("study", 4000),
-    ("sweep", 1500),
-    ("program", 5270),
+    ("mechanics", 33_700),
+    ("deck", 5350),
+    ("import", 9400),
+    ("model", 26_450),
+    ("solve", 34_800),
+    ("results", 11_400),
+    ("study", 4220),
+    ("sweep", 1550),
+    ("program", 6330),
 ];
 
 #[test]
