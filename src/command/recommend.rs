@@ -64,10 +64,11 @@ pub fn recommend(args: &RecommendArgs) -> Result<(), Exit> {
     if !args.quiet {
         show(&loaded.warnings, &loaded.source);
     }
-    let (settled, chosen) = settle(loaded, usize::from(args.threads), &AtomicBool::new(false)).map_err(|(problems, source)| {
-        show(&problems, &source);
-        Exit::DeckInvalid
-    })?;
+    let (settled, chosen) =
+        settle(loaded, usize::from(args.threads), &AtomicBool::new(false)).map_err(|(problems, source)| {
+            show(&problems, &source);
+            Exit::DeckInvalid
+        })?;
     let Some(chosen) = chosen else {
         complain("the deck has no `accuracy`\n  help: give --accuracy 1e-3, or `accuracy` in [analysis]");
         return Err(Exit::Usage);

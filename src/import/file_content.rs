@@ -384,7 +384,7 @@ pub struct ResponseCard {
 
 /// Damping by modes in a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ModalDamping {
+pub enum DampingOfModes {
     /// The damping ratio of all modes.
     Ratio(f64),
     /// Rayleigh's alpha and beta.
@@ -508,7 +508,7 @@ pub struct StepCard {
     /// True where earlier temperatures end.
     pub new_temperatures: bool,
     /// Damping by modes, its line, and the last mode with it, counted without gaps from the first.
-    pub damping: Option<(ModalDamping, usize, u64)>,
+    pub damping: Option<(DampingOfModes, usize, u64)>,
 }
 
 impl StepCard {

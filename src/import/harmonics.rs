@@ -4,7 +4,7 @@
 
 use crate::deck_text::{DeckTable, inline, number, quoted};
 use crate::dialect::Dialect;
-use crate::file_content::{AmplitudeCard, ModalDamping, ResponseCard, StepCard, StepProcedure, SupportLine};
+use crate::file_content::{AmplitudeCard, DampingOfModes, ResponseCard, StepCard, StepProcedure, SupportLine};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::step_cards;
@@ -99,7 +99,7 @@ pub fn modal_damping(im: &mut Importer, block: &KeywordBlock) {
     if all.iter().any(|other| *other != values) {
         return im.refuse(line, "all modes have the same damping in rdsolve");
     }
-    let damping = if is_rayleigh { ModalDamping::Rayleigh(values) } else { ModalDamping::Ratio(values[0]) };
+    let damping = if is_rayleigh { DampingOfModes::Rayleigh(values) } else { DampingOfModes::Ratio(values[0]) };
     let step = im.steps.at_hand();
     step.damping = Some((damping, line, last));
 }
@@ -242,7 +242,7 @@ fn refuse_phases(im: &mut Importer, at: usize) {
 fn check_damping(im: &mut Importer, at: usize) {
     let step = &im.steps.list[at];
     let by_modes = matches!(&step.procedure, Some((StepProcedure::Response(card), _)) if !card.is_direct);
-    if let Some((ModalDamping::Ratio(_), line, _)) = step.damping
+    if let Some((DampingOfModes::Ratio(_), line, _)) = step.damping
         && !by_modes
     {
         im.refuse(line, "rdsolve computes this step without modes: give *MODAL DAMPING, RAYLEIGH");
@@ -268,7 +268,7 @@ pub fn rayleigh(im: &mut Importer) -> Option<([f64; 2], usize)> {
         .iter()
         .filter(|step| matches!(step.procedure, Some((StepProcedure::Dynamic { .. } | StepProcedure::Response(_), _))))
         .map(|step| match step.damping {
-            Some((ModalDamping::Rayleigh(values), line, _)) => Some((values, line)),
+            Some((DampingOfModes::Rayleigh(values), line, _)) => Some((values, line)),
             _ => None,
         })
         .collect();

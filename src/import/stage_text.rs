@@ -2,7 +2,7 @@
 
 use crate::build::Build;
 use crate::deck_text::{DeckTable, inline, number, quoted};
-use crate::file_content::{ModalDamping, StepCard, StepProcedure};
+use crate::file_content::{DampingOfModes, StepCard, StepProcedure};
 use crate::harmonics;
 
 /// Adds the analysis or the stages.
@@ -38,7 +38,7 @@ pub fn stages(build: &mut Build) {
         let table = table.text("kind", kind(procedure));
         let table = times(table, procedure, build.timeline.is_staged());
         let table = match step.damping {
-            Some((ModalDamping::Ratio(ratio), ..)) => table.number("damping_ratio", ratio),
+            Some((DampingOfModes::Ratio(ratio), ..)) => table.number("damping_ratio", ratio),
             _ => table,
         };
         let scheme = scheme(procedure);

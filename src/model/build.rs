@@ -293,11 +293,7 @@ fn model<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, files: Files<'d>, 
             joints,
             restraints,
             targets,
-            ties: deck
-                .ties
-                .iter()
-                .map(|tie| tie.name.as_ref().map_or_else(String::new, |at| at.value.clone()))
-                .collect(),
+            ties: tie_names(deck),
         },
         loading: acting.fields.with(amplitudes, acting.loads),
         cases: asked.cases,
@@ -308,6 +304,11 @@ fn model<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, files: Files<'d>, 
         study: asked.study,
     };
     finish(model, asked.selection.all_nodes, deck, report)
+}
+
+/// The names of ties in their order; empty for one without a name.
+fn tie_names(deck: &Deck) -> Vec<String> {
+    deck.ties.iter().map(|tie| tie.name.as_ref().map_or_else(String::new, |at| at.value.clone())).collect()
 }
 
 /// The nodes with all that connects them.

@@ -36,11 +36,21 @@ impl Keep for SingleRun {
     fn keep(&mut self, _: &mut Snapshot) {}
 }
 
-/// The warning of a scene with fewer modes than are to be damped.
-fn fewer(found: usize, wanted: usize) -> String {
-    format!(
-        "`modal` damping asks for {wanted} modes, and the scene has {found}: all are damped. Give `modes` = {found}"
-    )
+/// Finds the modes that `modal` damps, if it damps any and none are known.
+fn find_modes_of_damping(cx: &Context, ws: &mut Workspace, stop: &AtomicBool) -> Result<(), Outcome> {
+    let begin = cx.model.analysis.begin;
+    if !cx.system.modal_damping().lacks_modes() {
+        return Ok(());
+    }
+    match find_damped((cx.model, cx.system, cx.plan), &cx.excitation, stop) {
+        Ok([found, wanted]) if found < wanted => ws.warnings.add(Warning::Modes(format!(
+            "`modal` damping asks for {wanted} modes, and the scene has {found}: all are damped. Give `modes` = {found}"
+        ))),
+        Ok(_) => {}
+        Err(ModesFault::Stopped) => return Err(Outcome::Stopped { time: begin }),
+        Err(fault) => return Err(Outcome::of(Failure::Modes(fault), begin)),
+    }
+    Ok(())
 }
 
 /// The error that a checkpoint is not one of this scene.
@@ -109,13 +119,8 @@ impl<'a> Run<'a> {
     ) -> (Outcome, Option<State>) {
         let Run { context: cx, workspace: ws, controller, recorder, handover, stop_watch, stop, checkpoint, .. } = self;
         let mut checkpoint = checkpoint.take();
-        if cx.system.modal_damping().lacks_modes() {
-            match find_damped((cx.model, cx.system, cx.plan), &cx.excitation, stop) {
-                Ok([found, wanted]) if found < wanted => ws.warnings.add(Warning::Modes(fewer(found, wanted))),
-                Ok(_) => {}
-                Err(ModesFault::Stopped) => return (Outcome::Stopped { time: cx.model.analysis.begin }, None),
-                Err(fault) => return (Outcome::of(Failure::Modes(fault), cx.model.analysis.begin), None),
-            }
+        if let Err(outcome) = find_modes_of_damping(cx, ws, stop) {
+            return (outcome, None);
         }
         ws.matrix.loses_nothing &= checkpoint.is_none() && handover.is_none();
         let began = match (&mut checkpoint, handover.as_ref()) {
