@@ -302,6 +302,8 @@ pub mod energy_growth {
     /// Excess of mechanical energy over the available energy, as a multiple of it, above which implicit steps have lost the motion. Steps
     /// that merely miss the instant of an impact stay below the available energy itself.
     pub const ABSURD: f64 = 3.0;
+    /// Growth of an absurd excess after which the motion is lost: unstable steps multiply it, a single jump does not.
+    pub const GOES_ON: f64 = 4.0;
     /// Part of the available energy that steps may generate with sound results.
     pub const SOUND: f64 = 0.02;
 }
