@@ -37,13 +37,13 @@ impl Keep for SingleRun {
 }
 
 /// Finds the modes that `modal` damps, if it damps any and none are known.
-fn find_modes_of_damping(cx: &Context, ws: &mut Workspace, stop: &AtomicBool) -> Result<(), Outcome> {
+fn find_modes_of_damping(cx: &Context, warnings: &mut Warnings, stop: &AtomicBool) -> Result<(), Outcome> {
     let begin = cx.model.analysis.begin;
     if !cx.system.modal_damping().lacks_modes() {
         return Ok(());
     }
     match find_damped((cx.model, cx.system, cx.plan), &cx.excitation, stop) {
-        Ok([found, wanted]) if found < wanted => ws.warnings.add(Warning::Modes(format!(
+        Ok([found, wanted]) if found < wanted => warnings.add(Warning::Modes(format!(
             "`modal` damping asks for {wanted} modes, and the scene has {found}: all are damped. Give `modes` = {found}"
         ))),
         Ok(_) => {}
@@ -119,7 +119,7 @@ impl<'a> Run<'a> {
     ) -> (Outcome, Option<State>) {
         let Run { context: cx, workspace: ws, controller, recorder, handover, stop_watch, stop, checkpoint, .. } = self;
         let mut checkpoint = checkpoint.take();
-        if let Err(outcome) = find_modes_of_damping(cx, ws, stop) {
+        if let Err(outcome) = find_modes_of_damping(cx, &mut ws.warnings, stop) {
             return (outcome, None);
         }
         ws.matrix.loses_nothing &= checkpoint.is_none() && handover.is_none();
@@ -142,12 +142,11 @@ impl<'a> Run<'a> {
         let samples = Samples::new(&schedule.samples);
         let stop_watch = stop_watch.as_mut().filter(|_| !recorder.is_comparison);
         let (place, resumes) = (RunPosition::default(), checkpoint.is_some());
-        let state_at = &mut state;
         let begins_from = handover.as_ref().map(|handover| &handover.state.nodes[..]);
         let mut march = March {
             cx,
             ws,
-            state: state_at,
+            state: &mut state,
             recorder,
             observer,
             samples,

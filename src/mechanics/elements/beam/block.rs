@@ -94,7 +94,7 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
         elastic: &'a dyn Fn(usize) -> SectionStiffness<f64>,
     ) -> Option<Damping<'a, f64>> {
         let acts = self.damping > 0.0 && !self.elements[e].section.has_failed(now.history);
-        acts.then(|| Damping { factor: self.damping, elastic })
+        acts.then_some(Damping { factor: self.damping, elastic })
     }
 
     /// Internal forces and moments on the nodes of an element, and the integrals of n and m over its length where something heats it.
