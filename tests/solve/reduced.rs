@@ -242,7 +242,7 @@ fn a_tumbling_part_keeps_its_momenta() {
 #[test]
 fn stages_share_an_interface() {
     let text = format!(
-        "{PLATE}[[supports]]\nat = \"plate.edge4\"\nfix = \"all\"\n\
+        "{STEPS}{PLATE}[[supports]]\nat = \"plate.edge4\"\nfix = \"all\"\n\
          [[stages]]\nname = \"bend\"\nkind = \"static\"\nduration = 1.0\ntime_step = 0.5\n\
          [[stages]]\nname = \"swing\"\nkind = \"dynamic\"\nduration = 0.1\ntime_step = 1e-3\n\
          [[loads]]\nat = [\"b\", \"c\"]\nforce = [0.0, 0.0, -0.2]\nstages = [\"bend\"]\n\
