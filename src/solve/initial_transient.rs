@@ -13,6 +13,7 @@ use mechanics::elements::Moduli;
 use mechanics::integrators::Stepping;
 use mechanics::state::{Configuration, Node, State};
 use model::StepLength;
+use std::collections::BTreeSet;
 
 /// Replaces the accelerations that no step resolves, for implicit steps of given length. `before` holds the nodes before a jump, and
 /// accelerations that do not jump are kept; `None` at the beginning of a run.
@@ -25,7 +26,13 @@ pub fn pass_over(cx: &Context, ws: &mut Workspace, state: &mut State, before: Op
     };
     let accelerations = |state: &State, node: usize| stack(&state.nodes[node].a, &state.nodes[node].alpha);
     let jumps = |now: &Vec3, before: Option<&Vec3>| before.is_none_or(|before| differs(now, before));
+    // Masses of superelements are coupled: an acceleration replaced at one node alone would not be that of any force, and a superelement has
+    // no light node.
+    let floating: BTreeSet<usize> = cx.system.floating_nodes().collect();
     let leaps = |state: &State, node: usize| {
+        if floating.contains(&node) {
+            return [false; 2];
+        }
         let (now, before) = (accelerations(state, node), before.map(|nodes| &nodes[node]));
         let [moves, turns] = leaps(&now);
         let moves = moves && jumps(&linear(&now), before.map(|node| &node.a));

@@ -325,3 +325,45 @@ fn what_shapes_do_not_have_is_refused() {
         assert!(said.contains(expected), "{expected}: {said}");
     }
 }
+
+/// The damping that hardly damps changes nothing, even where a sudden load gives accelerations that no step resolves.
+#[test]
+fn a_trace_of_damping_changes_nothing() {
+    let text = format!(
+        "[analysis]\nkind = \"dynamic\"\nend_time = 0.1\ntime_step = 2e-3\n{STEPS}{ARM}{CLAMP}[[loads]]\nat = \"tip\"\nforce = [0.0, 10.0, -30.0]\nmoment = [1.0, 0.0, 0.0]\n"
+    );
+    let text = reduced(&text, 8);
+    let rows = |damping: &str| run_to_the_end(&read_deck(&format!("{text}{damping}")), &mut places).rows;
+    let none = rows("");
+    let largest = |others: &dyn Fn(usize) -> Vec<f64>| {
+        none.iter().enumerate().map(|(k, row)| largest_difference(row, &others(k))).fold(0.0, f64::max)
+    };
+    let moved = largest(&|_| none[0].clone());
+    // Beta damps the highest mode kept, of 1e5 rad/s, by 5e-5 of critical damping; its part of the motion is small.
+    for (damping, part) in [("alpha", 1e-6), ("beta", 1e-5)] {
+        let damped = rows(&format!("[damping]\n{damping} = 1e-9\n"));
+        let off = largest(&|k| damped[k].clone());
+        assert!(damped.len() == none.len() && moved > 1e-3 && off < part * moved, "{damping} {off:e} of {moved:e}");
+    }
+}
+
+/// Rayleigh damping takes from a reduced part what it takes from the whole part.
+#[test]
+fn damping_is_that_of_the_whole_part() {
+    let text = format!(
+        "[analysis]\nkind = \"dynamic\"\nend_time = 0.2\ntime_step = 1e-3\n{STEPS}{ARM}{CLAMP}{TIP_LOAD}kind = \"sine-squared\"\nangular_frequency = 31.41592653589793\nend = 0.1\n"
+    )
+    .replace("[10.0, 20.0, -30.0]", "[0.01, 0.02, -0.03]")
+    .replace("[1.0, -2.0, 3.0]", "[1e-3, -2e-3, 3e-3]");
+    let rows = |text: &str, damping: &str| run_to_the_end(&read_deck(&format!("{text}{damping}")), &mut places).rows;
+    let few = reduced(&text, 10);
+    let none = rows(&few, "");
+    for damping in ["[damping]\nalpha = 20.0\n", "[damping]\nbeta = 1e-3\n"] {
+        let [full, few] = [&text, &few].map(|text| rows(text, damping));
+        let largest = |rows: &[Vec<f64>]| {
+            full.iter().zip(rows).map(|(row, other)| largest_difference(row, other)).fold(0.0, f64::max)
+        };
+        let (off, damped) = (largest(&few), largest(&none));
+        assert!(few.len() == full.len() && damped > 1e-7 && off < 1e-3 * damped, "{damping} {off:e} of {damped:e}");
+    }
+}
