@@ -367,3 +367,24 @@ fn damping_is_that_of_the_whole_part() {
         assert!(few.len() == full.len() && damped > 1e-7 && off < 1e-3 * damped, "{damping} {off:e} of {damped:e}");
     }
 }
+
+/// Weight and loads per length on inner nodes are in equilibrium in one step of nonlinear statics, near that of the whole part.
+#[test]
+fn spread_loads_need_one_step_of_statics() {
+    let statics = "[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = 1.0\n";
+    for load in [
+        "[[loads]]\npart = \"arm\"\nforce_per_length = [0.0, 0.0, -60.0]\n",
+        "[environment]\ngravity = [0.0, 0.0, -9.81]\n",
+    ] {
+        let text = format!("{statics}{ARM}{CLAMP}{load}");
+        let [full, few] = [text.clone(), reduced(&text, 8)].map(|text| {
+            let model = read_deck(&text);
+            let tip = model.nodes.iter().position(|node| node.label == "tip").expect("tip");
+            let height = |frame: &Frame| vec![frame.state.nodes[tip].x.z - frame.model.nodes[tip].x.z];
+            run_to_the_end(&model, &mut |frame| height(frame)).rows
+        });
+        assert!(few.len() == 2, "{few:?}");
+        let (full, few) = (full[full.len() - 1][0], few[1][0]);
+        assert!(full < -1e-3 && (few / full - 1.0).abs() < 1e-3, "{few:e} {full:e}");
+    }
+}

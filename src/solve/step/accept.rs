@@ -34,6 +34,7 @@ pub fn accept(
     if let Some(projection) = projection.as_deref_mut().filter(|_| cx.is_dynamic()) {
         projection.project(cx, (&mut ws.end, ws.reach), step.state, (stage.scheme, step.dt()))?;
     }
+    cx.system.recover(&mut ws.end.nodes);
     guards.ask(|guard| guard.at_end(cx, ws, &step, &account.dissipated))?;
     if !cx.is_dynamic() && cx.system.has_contacts() && cx.wants_forces {
         let end = (&ws.end.nodes[..], step.dt());

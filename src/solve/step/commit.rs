@@ -51,7 +51,6 @@ pub fn commit(
     for (old, value) in state.multipliers.iter_mut().zip(&ws.forces.multipliers.values) {
         *old += (value - *old) / scheme.instant;
     }
-    cx.system.recover(&mut ws.end.nodes);
     let mut reaction_changes: &[f64] = &[];
     if let Some(projection) = projection {
         projection.carry_multipliers(&mut state.multipliers);

@@ -305,6 +305,7 @@ impl System {
         let drag = self.mass_damping.acts().then_some(&self.mass_damping);
         for mass in &self.floating {
             mass.add_forces(nodes, &loading.field, self.dynamic, drag, F);
+            scale.include_force(&(mass.element.total_mass() * loading.field));
         }
         for damping in &self.nodal_damping {
             let node = &nodes[damping.node];
