@@ -932,4 +932,8 @@ pub mod reduction {
     /// Difference between the initial velocity of an inner node and that of the static shapes, as a part of the largest. Shapes of
     /// ill-conditioned parts have 1e-8.
     pub const CARRIED: f64 = 1e-6;
+    /// Most unknowns of an interface: each matrix over them has 32 MB.
+    pub const MOST: usize = 2000;
+    /// Unknowns of an interface that are few, even if they are more than the unknowns inside.
+    pub const FEW: usize = 300;
 }

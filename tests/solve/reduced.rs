@@ -388,3 +388,13 @@ fn spread_loads_need_one_step_of_statics() {
         assert!(full < -1e-3 && (few / full - 1.0).abs() < 1e-3, "{few:e} {full:e}");
     }
 }
+
+/// An interface that is larger than the part inside is refused.
+#[test]
+fn a_large_interface_is_refused() {
+    let text = reduced(PLATE, 4).replace("elements = [6, 4]", "elements = [40, 2]");
+    let edges =
+        "[[supports]]\nat = [\"plate.edge1\", \"plate.edge2\", \"plate.edge3\", \"plate.edge4\"]\nfix = \"all\"\n";
+    let said = said(&format!("{LINEAR}{text}{edges}"));
+    assert!(said.contains("its interface has 84 nodes, beside 39 inside"), "{said}");
+}

@@ -10,7 +10,7 @@ use super::modal::natural_pairs;
 use super::pencil::Pencil;
 use crate::plan::Plan;
 use crate::system::{Forces, Loading, System};
-use crate::tolerances::reduction::CARRIED;
+use crate::tolerances::reduction::{CARRIED, FEW, MOST};
 use base::diagnostic::Diagnostic;
 use base::math::{Vec3, Vec6};
 use mechanics::elements::Moduli;
@@ -121,7 +121,20 @@ fn alone(model: &Model, of: &Reduction) -> Model {
     own
 }
 
+/// Refuses interfaces whose full matrices cost more than the elements.
+fn refuse_large(of: &Reduction) -> Result<(), String> {
+    let (interface, inner) = (of.interface.len(), of.inner.len());
+    if inner > 0 && 6 * interface <= MOST && (6 * interface <= FEW || interface <= inner) {
+        return Ok(());
+    }
+    Err(format!(
+        "its interface has {interface} nodes, beside {inner} inside, and its matrices over them are full. Support or join it at fewer nodes, at most {} and no more than inside, or leave `reduced` out",
+        MOST / 6
+    ))
+}
+
 fn reduced(model: &Model, of: &Reduction) -> Result<ReducedPart, String> {
+    refuse_large(of)?;
     let own = alone(model, of);
     let system = System::in_space(&own)?;
     let plan = Plan::new(&own, &system, 1);
@@ -144,7 +157,9 @@ fn reduced(model: &Model, of: &Reduction) -> Result<ReducedPart, String> {
     let (mut solver, mut assembly) = at.symmetric_solver().map_err(|error| error.to_string())?;
     let mut pencil = Pencil::new(at, (&mut solver, &mut assembly));
     let pairs = inner_modes(&mut pencil, of)?;
-    let shapes = Shapes { of, at, columns: columns(&mut pencil, of, &pairs.kept)? };
+    let own = OwnNodes::new(of, own.nodes.len());
+    let columns = columns(&mut pencil, (of, &own), &pairs.kept)?;
+    let shapes = Shapes { of, own, at, columns };
     shapes.into_part(&pairs)
 }
 
@@ -185,8 +200,33 @@ fn words(fault: &ModesFault) -> String {
     }
 }
 
-/// The motions of all nodes by a unit of each degree of freedom of the superelement.
-fn columns(pencil: &mut Pencil, of: &Reduction, modes: &[(f64, Vec<f64>)]) -> Result<Vec<Vec<Vec6>>, String> {
+/// The nodes of a part: its interface, then those inside. Columns hold the motions of these alone.
+struct OwnNodes {
+    nodes: Vec<usize>,
+    /// The place of each node of the scene among them; the number of nodes for others.
+    place: Vec<usize>,
+}
+
+impl OwnNodes {
+    fn new(of: &Reduction, scene: usize) -> OwnNodes {
+        let nodes: Vec<usize> = of.interface.iter().chain(&of.inner).copied().collect();
+        let mut place = vec![nodes.len(); scene];
+        nodes.iter().enumerate().for_each(|(k, &node)| place[node] = k);
+        OwnNodes { nodes, place }
+    }
+
+    /// The motions of these nodes out of those of the scene.
+    fn of(&self, scene: &[Vec6]) -> Vec<Vec6> {
+        self.nodes.iter().map(|&node| scene[node]).collect()
+    }
+}
+
+/// The motions of the nodes of a part by a unit of each degree of freedom of the superelement.
+fn columns(
+    pencil: &mut Pencil,
+    (of, own): (&Reduction, &OwnNodes),
+    modes: &[(f64, Vec<f64>)],
+) -> Result<Vec<Vec<Vec6>>, String> {
     let at = pencil.at;
     let mut row_of = vec![[None; 6]; at.model.nodes.len()];
     at.plan.dofs.nodal_dofs().iter().enumerate().for_each(|(row, &(node, dof))| row_of[node][dof] = Some(row));
@@ -198,8 +238,8 @@ fn columns(pencil: &mut Pencil, of: &Reduction, modes: &[(f64, Vec<f64>)]) -> Re
     let mut statics = vec![vec![0.0; at.unknowns()]; 6 * of.interface.len()];
     let moved = |nodes: &[Node], statics: &[Vec<f64>]| -> Vec<Vec<Vec6>> {
         let of_unit = |(k, x): (usize, &Vec<f64>)| {
-            let mut motions = at.motions(nodes, x);
-            motions[of.interface[k / 6]][k % 6] = 1.0;
+            let mut motions = own.of(&at.motions(nodes, x));
+            motions[k / 6][k % 6] = 1.0;
             motions
         };
         statics.iter().enumerate().map(of_unit).collect()
@@ -210,27 +250,27 @@ fn columns(pencil: &mut Pencil, of: &Reduction, modes: &[(f64, Vec<f64>)]) -> Re
         let mut forces = vec![vec![0.0; at.unknowns()]; columns.len()];
         each_element(&at, &pencil.nodes, |nodes, d, K| {
             for (column, forces) in columns.iter().zip(&mut forces) {
-                subtract_forces((nodes, d, K), column, &row_of, forces);
+                subtract_forces((nodes, d, K), (column, own), &row_of, forces);
             }
         });
         pencil.solve_all(&mut forces);
         statics.iter_mut().flatten().zip(forces.iter().flatten()).for_each(|(sum, x)| *sum += x);
     }
     let statics = moved(&pencil.nodes, &statics);
-    let dynamics = modes.iter().map(|(_, x)| at.motions(&pencil.nodes, x));
+    let dynamics = modes.iter().map(|(_, x)| own.of(&at.motions(&pencil.nodes, x)));
     Ok(statics.into_iter().chain(dynamics).collect())
 }
 
 /// Subtracts the forces of an element in a small motion of its nodes from those on the unknowns.
 fn subtract_forces(
     (nodes, d, K): (&[usize], usize, &[f64]),
-    motions: &[Vec6],
+    (motions, own): (&[Vec6], &OwnNodes),
     row_of: &[[Option<usize>; 6]],
     forces: &mut [f64],
 ) {
     let width = d * nodes.len();
     for (i, row) in (0..width).filter_map(|i| Some((i, row_of[nodes[i / d]][i % d]?))) {
-        let force: f64 = (0..width).map(|j| K[i * width + j] * motions[nodes[j / d]][j % d]).sum();
+        let force: f64 = (0..width).map(|j| K[i * width + j] * motions[own.place[nodes[j / d]]][j % d]).sum();
         forces[row] -= force;
     }
 }
@@ -254,6 +294,7 @@ fn each_element(at: &Linearized, nodes: &[Node], mut visit: impl FnMut(&[usize],
 /// The shapes of a part.
 struct Shapes<'a> {
     of: &'a Reduction,
+    own: OwnNodes,
     at: Linearized<'a>,
     columns: Vec<Vec<Vec6>>,
 }
@@ -297,7 +338,7 @@ impl Shapes<'_> {
             damping: Arc::from([]),
         };
         let of_column = |column: &Vec<Vec6>| {
-            of.inner.iter().flat_map(|&node| column[node].iter().copied().collect::<Vec<f64>>()).collect::<Vec<f64>>()
+            column[of.interface.len()..].iter().flat_map(|motion| motion.iter().copied()).collect::<Vec<f64>>()
         };
         let shapes = self.columns.iter().flat_map(of_column).collect();
         let frequencies = modes.kept.iter().map(|(square, _)| square.max(0.0).sqrt() / TAU).collect();
@@ -316,7 +357,9 @@ impl Shapes<'_> {
         let mut sum = DMatrix::zeros(size, size);
         each_element(&self.at, &self.at.nodes_at_rest(), |nodes, d, K| {
             let width = d * nodes.len();
-            let own = DMatrix::from_fn(width, size, |row, column| self.columns[column][nodes[row / d]][row % d]);
+            let own = DMatrix::from_fn(width, size, |row, column| {
+                self.columns[column][self.own.place[nodes[row / d]]][row % d]
+            });
             let K = DMatrix::from_row_slice(width, width, K);
             sum += own.tr_mul(&(K * &own));
         });
@@ -328,13 +371,14 @@ impl Shapes<'_> {
         let (at, size) = (&self.at, self.columns.len());
         let nodes = at.nodes_at_rest();
         let mut forces = Forces::new(at.system, nodes.len());
+        let mut motions = vec![Vec6::zeros(); nodes.len()];
         let mut mass = DMatrix::zeros(size, size);
         for (k, column) in self.columns.iter().enumerate() {
-            at.system.apply_mass(&nodes, &mut column.clone(), &mut forces);
+            self.own.nodes.iter().zip(column).for_each(|(&node, motion)| motions[node] = *motion);
+            at.system.apply_mass(&nodes, &mut motions, &mut forces);
+            let product: Vec<Vec6> = self.own.nodes.iter().map(|&node| Vec6::from(forces.on_nodes[node])).collect();
             for (row, other) in self.columns.iter().enumerate() {
-                let of_node =
-                    |&node: &usize| other[node].iter().zip(&forces.on_nodes[node]).map(|(q, f)| q * f).sum::<f64>();
-                mass[(row, k)] = self.of.interface.iter().chain(&self.of.inner).map(of_node).sum();
+                mass[(row, k)] = other.iter().zip(&product).map(|(q, f)| q.dot(f)).sum();
             }
         }
         mass
