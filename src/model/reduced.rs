@@ -71,6 +71,8 @@ fn reduction(model: &mut Model, part: &DeckPart, acting: &BTreeSet<usize>, repor
         let away = |node: &usize| (x(node) - middle).norm();
         interface.extend(nodes.iter().copied().min_by(|a, b| away(a).total_cmp(&away(b))));
     }
+    // Stages of other interfaces have as many amplitudes; those beyond the modes are left out with the matrices.
+    let most = 6 * nodes.len();
     let inner: Vec<usize> = nodes.into_iter().filter(|node| interface.binary_search(node).is_err()).collect();
     if inner.is_empty() {
         let message = format!(
@@ -91,7 +93,7 @@ fn reduction(model: &mut Model, part: &DeckPart, acting: &BTreeSet<usize>, repor
         );
     }
     let damping = model.parts[*parts.first()?].own_damping();
-    let amplitudes = amplitudes(model, &name, interface[0], modes.min(6 * inner.len()));
+    let amplitudes = amplitudes(model, &name, interface[0], modes.min(most));
     let place = [asked.span.start, asked.span.end];
     let title = part.title();
     Some(Reduction { name, title, parts, interface, inner, amplitudes, up_to, damping, place, made: None })

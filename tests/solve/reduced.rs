@@ -398,3 +398,20 @@ fn a_large_interface_is_refused() {
     let said = said(&format!("{LINEAR}{text}{edges}"));
     assert!(said.contains("its interface has 84 nodes, beside 39 inside"), "{said}");
 }
+
+/// Stages may hold so much of a part that they have fewer unknowns inside than modes.
+#[test]
+fn stages_hold_different_numbers_of_nodes() {
+    let held = "[[supports]]\nat = [\"plate.edge1\", \"plate.edge2\"]\nfix = \"all\"\nstages = [\"second\"]\n";
+    let text = format!(
+        "{}[[supports]]\nat = \"plate.edge4\"\nfix = \"all\"\n{held}\
+         [[stages]]\nname = \"first\"\nkind = \"static\"\nduration = 1.0\ntime_step = 1.0\n\
+         [[stages]]\nname = \"second\"\nkind = \"static\"\nduration = 1.0\ntime_step = 1.0\n",
+        reduced(PLATE, 30).replace("elements = [6, 4]", "elements = [2, 2]")
+    );
+    let models = read_stages(&Source::new("deck.toml", text.as_str(), &[]));
+    let kept = |model: &Model| model.reductions[0].amplitudes.len();
+    assert!(models.len() == 2 && models.iter().all(|model| kept(model) == kept(&models[0])));
+    // Two nodes are inside of both.
+    assert!((1..=12).contains(&kept(&models[0])), "{}", kept(&models[0]));
+}
