@@ -157,7 +157,7 @@ fn refuse(model: &Model, part: &DeckPart, parts: &[usize], place: &Span, report:
             "give an implicit scheme, such as `scheme` = \"generalized-alpha\"",
         ),
     ];
-    for (_, message, hint) in faults.into_iter().filter(|(is_so, ..)| *is_so) {
+    if let Some((_, message, hint)) = faults.into_iter().find(|(is_so, ..)| *is_so) {
         return report.error_with(place, message, hint);
     }
     // A part with errors has no elements.

@@ -67,13 +67,13 @@ fn refusals_come_all_at_once() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     let (code, said, _) = rdsolve(folder.path(), &["import", "disc.inp", "--check"]);
     assert_eq!(code, 3);
-    assert!(said.contains("disc.inp,24,*TEMPERATURE,refused,"), "{said}");
+    assert!(said.contains("disc.inp,25,*VISCO,refused,"), "{said}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     let (code, said, _) = rdsolve(folder.path(), &["import", "disc.inp", "--partial"]);
     assert_eq!(code, 3);
     assert!(said.contains("written, incomplete: disc.toml"), "{said}");
     let written = std::fs::read_to_string(folder.path().join("disc.toml")).unwrap();
-    assert!(written.contains("\n# REFUSED\n") && written.contains("# disc.inp:24 *TEMPERATURE: "), "{written}");
+    assert!(written.contains("\n# REFUSED\n") && written.contains("# disc.inp:25 *VISCO: "), "{written}");
 }
 
 #[test]

@@ -72,7 +72,8 @@ fn distances_of_attachments_are_checked() {
     // The node in the middle and four around it, on the circle.
     assert_eq!(model.unwrap_or_else(|| panic!("{said:?}")).constraints.dependents.len(), 6);
     // Each name must have a node there.
-    let far = "[[attachments]]\nbeam = \"bolt\"\nnodes = [\"plate\", \"a\"]\nwithin = 0.015\n";
+    let far = "[[bodies]]\nname = \"far\"\ncenter = [0.5, 0.5, 0.0]\nmass = 0.1\ninertia = [1e-5, 1e-5, 1e-5]\n\
+               [[attachments]]\nbeam = \"bolt\"\nnodes = [\"plate\", \"far\"]\nwithin = 0.015\n";
     let (model, said) = read(far);
     assert!(model.is_none() && said.iter().any(|said| said.contains("no node of this lies within 0.015")), "{said:?}");
     for (within, words) in [

@@ -35,8 +35,7 @@ velocity = [1.0, 0.0, 0.0]
     )
 }
 
-/// Linear acceleration, β = 1/6, is stable up to ω Δt = √12, Δt = 0.346: beyond, amplitudes grow without end, and the run fails where the mass
-/// has four times its energy. Below, and with the trapezoidal rule at any step, the run is sound.
+/// Linear acceleration, β = 1/6, is stable up to ω Δt = √12, Δt = 0.346: beyond, amplitudes grow without end, and the run fails. Below, and with the trapezoidal rule at any step, the run is sound.
 #[test]
 fn an_implicit_scheme_beyond_its_limit_ends_the_run() {
     let outcome = |step: f64, beta: f64| run(&read_deck(&oscillator(step, beta)), &mut |_| Vec::new()).outcome;
@@ -45,7 +44,7 @@ fn an_implicit_scheme_beyond_its_limit_ends_the_run() {
     }
     match outcome(0.36, 1.0 / 6.0) {
         Outcome::Failed { failure: Failure::EnergyGrowth { ratio, kept_until, explicit: false }, .. } => {
-            assert!(ratio > 3.0 && kept_until < 40.0, "{ratio} {kept_until}");
+            assert!(ratio > 1000.0 && kept_until < 40.0, "{ratio} {kept_until}");
         }
         other => panic!("{other:?}"),
     }

@@ -179,7 +179,7 @@ fn modes_on_a_dish() {
         )
     };
     for friction in ["0.0", "0.05"] {
-        let done = run_source(&Source::new("deck.toml", &deck(friction), &[]), &mut |_| vec![]);
+        let done = run_source(&Source::new("deck.toml", deck(friction), &[]), &mut |_| vec![]);
         assert!(done.verdicts.len() == 1 && done.verdicts[0].passed, "{friction}");
     }
 }
