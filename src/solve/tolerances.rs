@@ -299,9 +299,6 @@ pub mod drift {
 pub mod energy_growth {
     /// Generated energy, as a multiple of the available energy, above which a run is lost and ends.
     pub const FAR: f64 = 100.0;
-    /// Excess of mechanical energy at the end over the available energy, as a multiple of it, above which implicit steps have lost the
-    /// motion. Overshoot of sound runs of few steps reaches some tens.
-    pub const ABSURD: f64 = 1000.0;
     /// Part of the available energy that steps may generate with sound results.
     pub const SOUND: f64 = 0.02;
 }

@@ -12,7 +12,6 @@ mod dependents;
 mod determinism;
 mod edge_cases;
 mod element_stability;
-mod energy_growth;
 mod equations;
 mod esdirk3;
 mod events;
