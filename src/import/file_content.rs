@@ -31,7 +31,7 @@ pub struct MaterialCard {
     pub expansion: Option<(f64, usize)>,
     /// True where it depends on temperature.
     pub has_expansions: bool,
-    /// The line that says that it takes tension alone.
+    /// The line of `*NO COMPRESSION`, for bars under tension alone.
     pub no_compression: Option<usize>,
 }
 

@@ -30,7 +30,7 @@ pub struct Deteriorating {
     pub post_capping: f64,
     /// Force that remains.
     pub residual: f64,
-    /// Elongation at which it breaks; infinite where it does not.
+    /// Elongation of the break; infinite without one.
     pub ultimate: f64,
     /// E_t of strength, softening and unloading; infinite without deterioration.
     pub capacities: [f64; 3],

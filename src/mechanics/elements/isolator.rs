@@ -454,7 +454,7 @@ mod tests {
         }
     }
 
-    /// Lifted off, the spring that stuck loses what it stored.
+    /// The spring of a slider that sticks loses its stored energy when the slider lifts off.
     #[test]
     fn a_lift_dissipates_what_was_stored() {
         let mut nodes = [0.0, -0.01].map(|z| crate::state::Node::at_rest(Vec3::new(z, 0.0, 0.0)));

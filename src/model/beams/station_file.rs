@@ -30,7 +30,7 @@ pub struct FileStation {
     pub twist: f64,
 }
 
-/// What to do about a file that is refused.
+/// The remedy for a refused file.
 const REMEDY: &str =
     "name a blade file or a primary file of BeamDyn, relative to the deck's folder, or give `stations`";
 

@@ -69,7 +69,7 @@ pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut 
     }
 }
 
-/// True for a record of the ground that begins with the first dynamic stage: its times count from 0, it moves nothing but the ground, and the
+/// True for a record of the ground that begins with the first dynamic stage. Its times count from 0, and it moves nothing but the ground. The
 /// deck gives no time for its begin.
 pub fn waits_for_motion(deck: &Deck, index: usize, record: &Record) -> bool {
     let (name, words) = &deck.amplitudes.0[index];
