@@ -1,10 +1,11 @@
 //! Hysteresis that aims at the largest elongation so far, with pinching, damage and softer unloading, after F. C. Filippou (material Hysteretic of
 //! OpenSees, M. H. Scott).
 //!
-//! First loading follows a symmetric backbone of up to three points. Unloading has the slope K μ^-b, where μ is the largest elongation over that of
-//! the first point, before which nothing is remembered. Reloading begins at the elongation without force x₀ and aims at the largest elongation X so far in its sense, of force Y, in two lines. They meet at
-//! the force p_f Y and the elongation x₀ + p_x (X − (1 − p_f) Y/K − x₀). At each reversal X grows by the part d₁ (μ − 1) + d₂ E/A, with the energy E dissipated so
-//! far and twice the area A/2 below the backbone. A step runs straight, and its events are found exactly.
+//! First loading follows a symmetric backbone of up to three points. Unloading has the slope K μ^-b, where μ is the largest elongation
+//! over that of the first point, before which nothing is remembered. Reloading begins at the elongation without force x₀ and aims at the
+//! largest elongation X so far in its sense, of force Y, in two lines. They meet at the force p_f Y and the elongation x₀ + p_x (X − (1 −
+//! p_f) Y/K − x₀). At each reversal, X grows by the part d₁ (μ − 1) + d₂ E/A, with the energy E dissipated so far and twice the area A/2
+//! below the backbone. A step runs straight, and its events are found exactly.
 
 use super::piecewise::area;
 

@@ -1,8 +1,8 @@
 //! The channel: with sharp corners, or rolled, with flanges whose inner faces slope and radii at the web and at their ends.
 
 use super::dimensions::{polygon, positive, smaller};
-use super::fibres::Fibre;
-use super::profile::{Profile, thin};
+use super::fibres::{Fibre, with_area};
+use super::profile::{Profile, Walled, thin};
 use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape};
 use super::stresses::SectionOutline;
@@ -76,44 +76,26 @@ pub struct C {
     pub flange: f64,
 }
 
-impl SectionShape for C {
-    fn section(&self, _: f64) -> Result<Section, String> {
-        channel(self.height, self.width, self.web, self.flange)
+impl Walled for C {
+    const FIBRES: [usize; 2] = [12, 4];
+
+    /// The web lies along z at the side of −y and includes the corners; the flanges point to +y.
+    fn profile(&self) -> Result<Profile, String> {
+        let &C { height, width, web, flange } = self;
+        positive(&[("height", height), ("width", width), ("web_thickness", web), ("flange_thickness", flange)])?;
+        smaller(("web_thickness", web), ("width", width), "the web must leave a flange: less than")?;
+        smaller(("flange_thickness", flange), ("height/2", 0.5 * height), "two flanges must leave a web: less than")?;
+        let (out, z) = (0.5 * (width + web), 0.5 * (height - flange));
+        let plates =
+            vec![([out, z], width - web, flange), ([0.5 * web, 0.0], web, height), ([out, -z], width - web, flange)];
+        let points = vec![[width, z], [0.5 * web, z], [0.5 * web, -z], [width, -z]];
+        let walls = [(0, 1, flange), (1, 2, web), (3, 2, flange)];
+        thin(points, &walls, plates, &[flange, flange])
     }
 
-    fn default_fibres(&self, _: Option<usize>) -> Result<[usize; 2], String> {
-        Ok([12, 4])
+    fn sides(&self) -> [f64; 2] {
+        [self.width, self.height]
     }
-
-    fn lay_fibres(&self, counts: [usize; 2], _: &Section) -> Result<Vec<Fibre>, String> {
-        Ok(c(self.height, self.width, self.web, self.flange)?.fibres(counts))
-    }
-
-    fn outline(&self, _: f64, section: &Section) -> Option<SectionOutline> {
-        Some(c(self.height, self.width, self.web, self.flange).ok()?.outline(section))
-    }
-
-    fn half_depth(&self) -> f64 {
-        0.5 * self.width.min(self.height)
-    }
-}
-
-/// Channel: web along z at the side of −y, flanges pointing to +y.
-pub fn channel(height: f64, width: f64, web: f64, flange: f64) -> Result<Section, String> {
-    Ok(c(height, width, web, flange)?.section())
-}
-
-/// Walls of [`channel`]; the web includes the corners.
-fn c(height: f64, width: f64, web: f64, flange: f64) -> Result<Profile, String> {
-    positive(&[("height", height), ("width", width), ("web_thickness", web), ("flange_thickness", flange)])?;
-    smaller(("web_thickness", web), ("width", width), "the web must leave a flange: less than")?;
-    smaller(("flange_thickness", flange), ("height/2", 0.5 * height), "two flanges must leave a web: less than")?;
-    let (out, z) = (0.5 * (width + web), 0.5 * (height - flange));
-    let plates =
-        vec![([out, z], width - web, flange), ([0.5 * web, 0.0], web, height), ([out, -z], width - web, flange)];
-    let points = vec![[width, z], [0.5 * web, z], [0.5 * web, -z], [width, -z]];
-    let walls = [(0, 1, flange), (1, 2, web), (3, 2, flange)];
-    thin(points, &walls, plates, &[flange, flange])
 }
 
 /// A rolled channel.
@@ -210,9 +192,7 @@ impl SectionShape for RolledC {
 
     /// Fibres of the sharp channel with the area of this one, moved so that their second moments are those of this one.
     fn lay_fibres(&self, counts: [usize; 2], section: &Section) -> Result<Vec<Fibre>, String> {
-        let mut fibres = self.sharp.lay_fibres(counts, section)?;
-        let whole: f64 = fibres.iter().map(|fibre| fibre.area).sum();
-        fibres.iter_mut().for_each(|fibre| fibre.area *= section.area / whole);
+        let mut fibres = with_area(section.area, self.sharp.lay_fibres(counts, section)?);
         let moment = |of: fn(&Fibre) -> f64| fibres.iter().map(|fibre| fibre.area * of(fibre).powi(2)).sum::<f64>();
         let y = (section.Iz / moment(|fibre| fibre.y)).sqrt();
         let z = (section.Iy / moment(|fibre| fibre.z)).sqrt();
@@ -235,7 +215,7 @@ impl SectionShape for RolledC {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sections::tests::close;
+    use crate::sections::tests::{channel, close};
 
     /// Textbook formula, middle-line dimensions: e = 3 b² t_f / (6 b t_f + h t_w) outside the web (Timoshenko, Strength of
     /// Materials II, art. 53). The flow is integrated exactly, so only round-off remains.

@@ -1,8 +1,8 @@
 //! The rectangular hollow section.
 
 use super::dimensions::{positive, smaller};
-use super::fibres::Fibre;
-use super::profile::Profile;
+use super::fibres::{Fibre, with_area};
+use super::profile::{Profile, Walled};
 use super::rounded::Corner;
 use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape, check_walls};
@@ -66,56 +66,39 @@ pub struct HollowBox {
     pub flange: f64,
 }
 
-impl SectionShape for HollowBox {
-    fn section(&self, _: f64) -> Result<Section, String> {
-        hollow_box(self.width, self.height, self.web, self.flange)
+impl Walled for HollowBox {
+    const FIBRES: [usize; 2] = [8, 2];
+
+    /// The walls counter-clockwise; the webs take the corners.
+    ///
+    /// Torsion: Bredt's cell plus the walls' own, J = 4 A_m²/∮ds/t + Σ b t³/3 over middle lines (EN 10210-2, annex A, with no corner radius).
+    fn profile(&self) -> Result<Profile, String> {
+        let &HollowBox { width, height, web, flange } = self;
+        positive(&[("width", width), ("height", height), ("thickness", web), ("thickness", flange)])?;
+        smaller(("thickness", web), ("width/2", 0.5 * width), "two walls must leave a hollow: less than")?;
+        smaller(("thickness", flange), ("height/2", 0.5 * height), "two walls must leave a hollow: less than")?;
+        let (b, h) = (width - web, height - flange); // of the middle line
+        let (y, z) = (0.5 * b, 0.5 * h);
+        let bredt = 4.0 * (b * h).powi(2) / (2.0 * (b / flange + h / web));
+        Ok(Profile {
+            points: vec![[-y, -z], [y, -z], [y, z], [-y, z], [-y, -z]],
+            walls: (0..4)
+                .map(|i| Wall { ends: [i, i + 1], thickness: if i % 2 == 0 { flange } else { web } })
+                .collect(),
+            plates: vec![
+                ([0.0, -z], width - 2.0 * web, flange),
+                ([y, 0.0], web, height),
+                ([0.0, z], width - 2.0 * web, flange),
+                ([-y, 0.0], web, height),
+            ],
+            cell: true,
+            torsion: bredt + 2.0 / 3.0 * (b * flange.powi(3) + h * web.powi(3)),
+        })
     }
 
-    fn default_fibres(&self, _: Option<usize>) -> Result<[usize; 2], String> {
-        Ok([8, 2])
+    fn sides(&self) -> [f64; 2] {
+        [self.width, self.height]
     }
-
-    fn lay_fibres(&self, counts: [usize; 2], _: &Section) -> Result<Vec<Fibre>, String> {
-        Ok(cell(self.width, self.height, self.web, self.flange)?.fibres(counts))
-    }
-
-    fn outline(&self, _: f64, section: &Section) -> Option<SectionOutline> {
-        Some(cell(self.width, self.height, self.web, self.flange).ok()?.outline(section))
-    }
-
-    fn half_depth(&self) -> f64 {
-        0.5 * self.width.min(self.height)
-    }
-}
-
-/// Rectangular hollow section; `web` is the thickness of the two walls normal to y, `flange` of those normal to z.
-///
-/// Area and moments are exact, with sharp corners. Torsion: Bredt's cell plus the walls' own, J = 4 A_m²/∮ds/t + Σ b t³/3
-/// over middle lines (EN 10210-2, annex A, with no corner radius). Shear areas: energy of the shear flow.
-pub fn hollow_box(width: f64, height: f64, web: f64, flange: f64) -> Result<Section, String> {
-    Ok(cell(width, height, web, flange)?.section())
-}
-
-/// The walls of a box, counter-clockwise; the webs take the corners.
-fn cell(width: f64, height: f64, web: f64, flange: f64) -> Result<Profile, String> {
-    positive(&[("width", width), ("height", height), ("thickness", web), ("thickness", flange)])?;
-    smaller(("thickness", web), ("width/2", 0.5 * width), "two walls must leave a hollow: less than")?;
-    smaller(("thickness", flange), ("height/2", 0.5 * height), "two walls must leave a hollow: less than")?;
-    let (b, h) = (width - web, height - flange); // of the middle line
-    let (y, z) = (0.5 * b, 0.5 * h);
-    let bredt = 4.0 * (b * h).powi(2) / (2.0 * (b / flange + h / web));
-    Ok(Profile {
-        points: vec![[-y, -z], [y, -z], [y, z], [-y, z], [-y, -z]],
-        walls: (0..4).map(|i| Wall { ends: [i, i + 1], thickness: if i % 2 == 0 { flange } else { web } }).collect(),
-        plates: vec![
-            ([0.0, -z], width - 2.0 * web, flange),
-            ([y, 0.0], web, height),
-            ([0.0, z], width - 2.0 * web, flange),
-            ([-y, 0.0], web, height),
-        ],
-        cell: true,
-        torsion: bredt + 2.0 / 3.0 * (b * flange.powi(3) + h * web.powi(3)),
-    })
 }
 
 /// A rectangular hollow section of one thickness with rounded corners.
@@ -164,10 +147,7 @@ impl SectionShape for RoundedBox {
 
     /// Fibres of the section with sharp corners, with the area of this one.
     fn lay_fibres(&self, counts: [usize; 2], section: &Section) -> Result<Vec<Fibre>, String> {
-        let mut fibres = self.sharp.lay_fibres(counts, section)?;
-        let whole: f64 = fibres.iter().map(|fibre| fibre.area).sum();
-        fibres.iter_mut().for_each(|fibre| fibre.area *= section.area / whole);
-        Ok(fibres)
+        Ok(with_area(section.area, self.sharp.lay_fibres(counts, section)?))
     }
 
     fn outline(&self, nu: f64, section: &Section) -> Option<SectionOutline> {
@@ -182,7 +162,7 @@ impl SectionShape for RoundedBox {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sections::tests::close;
+    use crate::sections::tests::{close, hollow_box};
 
     /// EN 10210-2 for SHS 100×100×5: I_t = 439 cm⁴ with corners of middle radius 1.25 t. The formula reproduces the standard's three digits
     /// with the radius, and this section, to round-off, without it.

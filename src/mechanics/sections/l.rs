@@ -1,8 +1,8 @@
 //! The angle.
 
 use super::dimensions::{positive, rectangles, smaller};
-use super::fibres::Fibre;
-use super::profile::{Profile, thin};
+use super::fibres::{Fibre, with_area};
+use super::profile::{Profile, Walled, thin};
 use super::rounded::Corner;
 use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape, check_walls};
@@ -64,44 +64,26 @@ pub struct L {
     pub horizontal: f64,
 }
 
-impl SectionShape for L {
-    fn section(&self, _: f64) -> Result<Section, String> {
-        angle(self.height, self.width, self.vertical, self.horizontal)
+impl Walled for L {
+    const FIBRES: [usize; 2] = [8, 4];
+
+    /// The corner lies at −y, −z; the upright leg includes it.
+    fn profile(&self) -> Result<Profile, String> {
+        let &L { height, width, vertical, horizontal } = self;
+        positive(&[("height", height), ("width", width), ("thickness", vertical), ("thickness", horizontal)])?;
+        smaller(("thickness", vertical), ("width", width), "the upright leg must leave a flat one: less than")?;
+        smaller(("thickness", horizontal), ("height", height), "the flat leg must leave an upright one: less than")?;
+        let (y, z) = (0.5 * vertical, 0.5 * horizontal);
+        let plates =
+            vec![([y, 0.5 * height], vertical, height), ([0.5 * (width + vertical), z], width - vertical, horizontal)];
+        let points = vec![[y, height], [y, z], [width, z]];
+        let walls = [(0, 1, vertical), (1, 2, horizontal)];
+        thin(points, &walls, plates, &[vertical, horizontal])
     }
 
-    fn default_fibres(&self, _: Option<usize>) -> Result<[usize; 2], String> {
-        Ok([8, 4])
+    fn sides(&self) -> [f64; 2] {
+        [self.width, self.height]
     }
-
-    fn lay_fibres(&self, counts: [usize; 2], _: &Section) -> Result<Vec<Fibre>, String> {
-        Ok(l(self.height, self.width, self.vertical, self.horizontal)?.fibres(counts))
-    }
-
-    fn outline(&self, _: f64, section: &Section) -> Option<SectionOutline> {
-        Some(l(self.height, self.width, self.vertical, self.horizontal).ok()?.outline(section))
-    }
-
-    fn half_depth(&self) -> f64 {
-        0.5 * self.width.min(self.height)
-    }
-}
-
-/// Angle: corner at −y, −z; one leg of thickness `vertical` up along z, one of thickness `horizontal` out along y.
-pub fn angle(height: f64, width: f64, vertical: f64, horizontal: f64) -> Result<Section, String> {
-    Ok(l(height, width, vertical, horizontal)?.section())
-}
-
-/// Walls of [`angle`]; the upright leg includes the corner.
-fn l(height: f64, width: f64, vertical: f64, horizontal: f64) -> Result<Profile, String> {
-    positive(&[("height", height), ("width", width), ("thickness", vertical), ("thickness", horizontal)])?;
-    smaller(("thickness", vertical), ("width", width), "the upright leg must leave a flat one: less than")?;
-    smaller(("thickness", horizontal), ("height", height), "the flat leg must leave an upright one: less than")?;
-    let (y, z) = (0.5 * vertical, 0.5 * horizontal);
-    let plates =
-        vec![([y, 0.5 * height], vertical, height), ([0.5 * (width + vertical), z], width - vertical, horizontal)];
-    let points = vec![[y, height], [y, z], [width, z]];
-    let walls = [(0, 1, vertical), (1, 2, horizontal)];
-    thin(points, &walls, plates, &[vertical, horizontal])
 }
 
 /// A rolled angle of one thickness: a radius between the legs, and half of it at the inner edges of their ends (EN 10056-1).
@@ -174,10 +156,7 @@ impl SectionShape for RolledL {
 
     /// Fibres of the sharp legs with the area of the rounded ones, about their own centroid.
     fn lay_fibres(&self, counts: [usize; 2], section: &Section) -> Result<Vec<Fibre>, String> {
-        let mut fibres = self.legs.lay_fibres(counts, section)?;
-        let whole: f64 = fibres.iter().map(|fibre| fibre.area).sum();
-        fibres.iter_mut().for_each(|fibre| fibre.area *= section.area / whole);
-        Ok(fibres)
+        Ok(with_area(section.area, self.legs.lay_fibres(counts, section)?))
     }
 
     fn outline(&self, nu: f64, section: &Section) -> Option<SectionOutline> {
@@ -196,7 +175,7 @@ impl SectionShape for RolledL {
 mod tests {
     use super::*;
     use crate::sections::dimensions::rectangles;
-    use crate::sections::tests::close;
+    use crate::sections::tests::{angle, close};
 
     /// Each leg's flow runs through the corner of the middle lines, so does its resultant.
     #[test]

@@ -36,11 +36,11 @@ pub static SECTIONS: &[&SectionKind] =
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sections::c::channel;
+    use crate::sections::c::C;
     use crate::sections::general::general;
-    use crate::sections::hollow_box::hollow_box;
-    use crate::sections::i::i_section;
-    use crate::sections::l::angle;
+    use crate::sections::hollow_box::HollowBox;
+    use crate::sections::i::I;
+    use crate::sections::l::L;
     use crate::sections::rectangle::rectangle;
     use crate::sections::tube::tube;
     use base::math::Mat6;
@@ -48,6 +48,23 @@ mod tests {
 
     pub fn close(value: f64, expected: f64, relative: f64) {
         assert!((value - expected).abs() <= relative * expected.abs(), "{value} for {expected}");
+    }
+
+    pub fn angle(height: f64, width: f64, vertical: f64, horizontal: f64) -> Result<Section, String> {
+        L { height, width, vertical, horizontal }.section(0.0)
+    }
+
+    pub fn channel(height: f64, width: f64, web: f64, flange: f64) -> Result<Section, String> {
+        C { height, width, web, flange }.section(0.0)
+    }
+
+    pub fn hollow_box(width: f64, height: f64, web: f64, flange: f64) -> Result<Section, String> {
+        HollowBox { width, height, web, flange }.section(0.0)
+    }
+
+    pub fn i_section(height: f64, widths: [f64; 2], web: f64, flanges: [f64; 2]) -> Result<Section, String> {
+        let ([top_width, bottom_width], [top_flange, bottom_flange]) = (widths, flanges);
+        I { height, top_width, bottom_width, web, top_flange, bottom_flange }.section(0.0)
     }
 
     /// Scenes C1 and C2 list their constants with seven digits.
@@ -82,7 +99,7 @@ mod tests {
                 rectangle(w, h, 0.3).unwrap(),
                 tube(w, t, 0.3).unwrap(),
                 hollow_box(w, h, t, u).unwrap(),
-                i_section(h, w, r(0.05, 0.5), t, u, v).unwrap(),
+                i_section(h, [w, r(0.05, 0.5)], t, [u, v]).unwrap(),
                 channel(h, w, t, u).unwrap(),
                 angle(h, w, t, u).unwrap(),
                 general(t * u, [t.powi(4), u.powi(4)], 0.9 * (t * u).powi(2), v, [t * t, u * u]).unwrap(),

@@ -8,10 +8,12 @@
 use super::dimensions::rectangles;
 use super::fibres::Fibre;
 use super::section::Section;
+use super::section_shape::SectionShape;
 use super::stresses::{SectionOutline, StressPoint};
 use super::wall::{Wall, flow_at, shear};
 use base::math::quadrature::pairs;
 use nalgebra::Vector2;
+use std::fmt;
 
 /// Straight walls, each with the rectangle it fills; the rectangles lie side by side.
 pub struct Profile {
@@ -113,6 +115,41 @@ impl Profile {
     }
 }
 
+/// A shape of straight walls with sharp corners: the section follows from its profile.
+pub trait Walled: fmt::Debug {
+    /// The default numbers of fibres: along the longest wall, and through the thickness of each.
+    const FIBRES: [usize; 2];
+
+    /// The walls. Errors: dimensions that do not go together.
+    fn profile(&self) -> Result<Profile, String>;
+
+    /// The largest sizes along y and z.
+    fn sides(&self) -> [f64; 2];
+}
+
+impl<T: Walled> SectionShape for T {
+    fn section(&self, _: f64) -> Result<Section, String> {
+        Ok(self.profile()?.section())
+    }
+
+    fn default_fibres(&self, _: Option<usize>) -> Result<[usize; 2], String> {
+        Ok(T::FIBRES)
+    }
+
+    fn lay_fibres(&self, counts: [usize; 2], _: &Section) -> Result<Vec<Fibre>, String> {
+        Ok(self.profile()?.fibres(counts))
+    }
+
+    fn outline(&self, _: f64, section: &Section) -> Option<SectionOutline> {
+        Some(self.profile().ok()?.outline(section))
+    }
+
+    fn half_depth(&self) -> f64 {
+        let [width, height] = self.sides();
+        0.5 * width.min(height)
+    }
+}
+
 /// A profile of open walls, each with its plate; `free` lists the thickness at each free end.
 pub fn thin(
     points: Vec<[f64; 2]>,
@@ -135,9 +172,7 @@ pub fn thin(
 
 #[cfg(test)]
 mod tests {
-    use crate::sections::c::channel;
-    use crate::sections::i::i_section;
-    use crate::sections::l::angle;
+    use crate::sections::tests::{angle, channel, i_section};
 
     /// Against Prandtl's problem on the sharp-cornered shapes, solved by finite differences (five points, two grids and their
     /// extrapolation; the same program gives the square's 0.140577). The missing part is the bulge at the junctions.
@@ -147,8 +182,8 @@ mod tests {
             (angle(100.0, 100.0, 10.0, 10.0), 61_940.0),
             (angle(100.0, 100.0, 20.0, 20.0), 457_700.0),
             (channel(200.0, 76.0, 8.0, 12.0), 111_170.0),
-            (i_section(200.0, 100.0, 100.0, 6.0, 8.0, 8.0), 46_877.0),
-            (i_section(300.0, 100.0, 100.0, 10.0, 20.0, 20.0), 571_750.0),
+            (i_section(200.0, [100.0; 2], 6.0, [8.0; 2]), 46_877.0),
+            (i_section(300.0, [100.0; 2], 10.0, [20.0; 2]), 571_750.0),
         ] {
             let torsion = section.unwrap().torsion;
             assert!(torsion < exact && torsion > 0.97 * exact, "{torsion} for {exact}");
@@ -162,7 +197,7 @@ mod tests {
             "`web_thickness` is 0.08, but the web must leave a flange: less than width = 0.075"
         );
         assert!(
-            i_section(0.2, 0.1, 0.1, 0.01, 0.12, 0.1).unwrap_err().contains("both together must be less than height")
+            i_section(0.2, [0.1; 2], 0.01, [0.12, 0.1]).unwrap_err().contains("both together must be less than height")
         );
         assert!(angle(0.1, 0.1, 0.09, 0.09).unwrap_err().contains("not thin-walled"));
         assert!(angle(0.1, f64::INFINITY, 0.09, 0.01).unwrap_err().starts_with("`width` is inf"));
