@@ -27,6 +27,14 @@ pub trait WriteRow {
     /// Adds a field with a number; it stays empty where the number is not finite.
     fn number(&mut self, value: f64) -> &mut dyn WriteRow;
 
+    /// Adds a field with a number; without one the field is empty, and no message counts it.
+    fn optional(&mut self, value: Option<f64>) -> &mut dyn WriteRow {
+        match value {
+            Some(value) => self.number(value),
+            None => self.text(""),
+        }
+    }
+
     /// Adds a field for each of several numbers.
     fn numbers(&mut self, values: &[f64]) -> &mut dyn WriteRow;
 

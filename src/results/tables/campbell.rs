@@ -26,17 +26,8 @@ fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     for at_speed in &modes.speeds {
         for (number, mode) in (1..).zip(&at_speed.list) {
             let row = table.row(frame.step, frame.state.time).number(at_speed.speed).count(number);
-            row.number(mode.root[1] / TAU).number(mode.root[1]);
-            match mode.damping_ratio() {
-                Some(ratio) => row.number(ratio),
-                None => row.text(""),
-            };
-            row.number(mode.root[0]);
-            match mode.whirl {
-                Some(whirl) => row.number(whirl),
-                None => row.text(""),
-            };
-            row.end()?;
+            row.number(mode.root[1] / TAU).number(mode.root[1]).optional(mode.damping_ratio());
+            row.number(mode.root[0]).optional(mode.whirl).end()?;
         }
     }
     Ok(())

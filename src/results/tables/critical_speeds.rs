@@ -45,10 +45,7 @@ fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     (1..).zip(&modes.critical_speeds).try_for_each(|(number, critical)| {
         let row = table.row(frame.step, frame.state.time).count(number);
         for value in values(critical) {
-            match value {
-                Some(value) => row.number(value),
-                None => row.text(""),
-            };
+            row.optional(value);
         }
         row.end()
     })

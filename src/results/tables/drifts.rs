@@ -60,10 +60,7 @@ fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     frame.model.output.drifts.iter().try_for_each(|drift| {
         let row = table.row(frame.step, frame.state.time).text(&drift.name);
         for value in values(drift, frame) {
-            match value {
-                Some(value) => row.number(value),
-                None => row.text(""),
-            };
+            row.optional(value);
         }
         row.end()
     })

@@ -62,10 +62,7 @@ fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     (1..).zip(&modes.list).try_for_each(|(number, mode)| {
         let row = table.row(frame.step, frame.state.time).count(number);
         for value in values(mode) {
-            match value {
-                Some(value) => row.number(value),
-                None => row.text(""),
-            };
+            row.optional(value);
         }
         row.end()
     })
