@@ -56,7 +56,7 @@ fn read_bar<'d>(
     let elements = nodes.windows(2).map(|pair| [pair[0], pair[1]]).collect();
     cx.parts.entry_mut(at).nodes = nodes;
     let tension_only = flag(&bar.tension_only, false);
-    let yielding = cx.materials.yielding_of(&bar.material)?;
+    let yielding = cx.materials.yielding_of(&bar.material, &owner.what, cx.report)?;
     Some(Bar {
         name,
         axial_stiffness,

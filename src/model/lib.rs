@@ -42,6 +42,7 @@ mod reduced;
 mod report;
 mod rigid;
 mod scene;
+mod reinforcement;
 mod sections;
 mod shells;
 mod stages;

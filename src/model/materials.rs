@@ -10,13 +10,14 @@ use deck::materials as words;
 use deck::words::kinds::OneOf;
 use deck::words::{Maybe, Named};
 use mechanics::materials::models::MaterialKind;
+use mechanics::materials::uniaxial::UniaxialLaw;
 use mechanics::materials::{MaterialLaw, Viscosity};
 
 /// The materials of a deck, with what parts ask of them.
 pub(super) struct Materials<'d> {
     table: &'d Named<OneOf<words::Material>>,
     /// The law of each material; `None` where it is elastic or has errors.
-    laws: Vec<Option<MaterialLaw>>,
+    laws: Vec<Option<UniaxialLaw>>,
     /// Deformable parts must have a mass: in dynamics, and where gravity pulls or the ground accelerates.
     inertia_matters: bool,
 }
@@ -53,14 +54,32 @@ impl<'d> Materials<'d> {
         Some(&self.table.0[self.table.position(name)?].1)
     }
 
-    /// The law of a part's material; `Some(None)` for elastic material or none, `None` after errors.
-    pub fn yielding_of(&self, name: &Maybe<String>) -> Option<Option<MaterialLaw>> {
-        let Some(name) = name else { return Some(None) };
+    /// The law of normal stress of a material; `Some(None)` where it is elastic, `None` after errors.
+    pub fn law_of_fibres(&self, name: &At<String>) -> Option<Option<UniaxialLaw>> {
         let index = self.table.position(name)?;
         let (_, material) = &self.table.0[index];
         match material.kind.as_ref()?.make.law {
             None => Some(None),
             Some(_) => self.laws[index].clone().map(Some),
+        }
+    }
+
+    /// The law of the material of a part under several stresses; `Some(None)` for elastic material or none, `None` after errors.
+    pub fn yielding_of(
+        &self,
+        name: &Maybe<String>,
+        part: &str,
+        report: &mut Report<'d>,
+    ) -> Option<Option<MaterialLaw>> {
+        let Some(name) = name else { return Some(None) };
+        match self.law_of_fibres(name)? {
+            None | Some(UniaxialLaw::Elastic(_)) => Some(None),
+            Some(UniaxialLaw::Plastic(law)) => Some(Some(law)),
+            Some(UniaxialLaw::Concrete(_) | UniaxialLaw::MenegottoPinto(_)) => {
+                let word = self.named(name)?.kind.as_ref()?.word;
+                let message = format!("{part} cannot be made of material `{}`: model \"{word}\" is for beams", name.value);
+                report.error_with(&name.span, message, "take model \"elastic-plastic\"")
+            }
         }
     }
 
@@ -78,10 +97,22 @@ impl<'d> Materials<'d> {
         part: &str,
         report: &mut Report<'d>,
     ) -> Option<f64> {
+        self.density_if(self.needs_mass(mass), name, material, part, report)
+    }
+
+    /// The density of a material, which must be there if `part` `needs` it.
+    pub fn density_if(
+        &self,
+        needs: bool,
+        name: &At<String>,
+        material: &At<OneOf<words::Material>>,
+        part: &str,
+        report: &mut Report<'d>,
+    ) -> Option<f64> {
         match &material.density {
             Some(density) => Some(density.value),
             None if report.is_spoiled(&material.span, "density") => None,
-            None if self.needs_mass(mass) => {
+            None if needs => {
                 let message = format!("material `{}` has no density, which the mass of {part} needs", name.value);
                 report.error_with(&name.span, message, "give it one, or `mass = \"none\"` to the part")
             }
@@ -96,7 +127,7 @@ fn law_of<'d>(
     material: &'d OneOf<words::Material>,
     kind: &'static MaterialKind,
     report: &mut Report<'d>,
-) -> Option<MaterialLaw> {
+) -> Option<UniaxialLaw> {
     let model = &kind.make;
     let viscosity = if model.is_viscous {
         report.require(owner, "viscosity", &material.viscosity).map(|table| viscosity(table, report))
@@ -108,7 +139,7 @@ fn law_of<'d>(
     let ratio = material.poisson_ratio.as_ref().map_or(0.0, |ratio| ratio.value);
     // The other keys are checked also where constants are missing or wrong.
     let law = report.read(owner, model.noun, &material.values, kind, |given| {
-        (model.law?)(given, [modulus.unwrap_or(1.0), ratio], viscosity.flatten())
+        (model.law?)(given, [modulus.unwrap_or(f64::NAN), ratio], viscosity.flatten())
     });
     let is_complete = modulus.is_some() && viscosity.is_some_and(|viscosity| viscosity.is_some() || !model.is_viscous);
     law.filter(|_| is_complete)

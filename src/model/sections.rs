@@ -2,6 +2,7 @@
 
 use super::data::MassKind;
 use super::materials::Materials;
+use super::reinforcement::{SectionPart, is_composite, with_fibres};
 use super::report::{Owner, Report};
 use base::diagnostic::At;
 use deck::Deck;
@@ -9,7 +10,9 @@ use deck::sections as words;
 use deck::words::kinds::{Given, OneOf};
 use deck::words::{Maybe, Named};
 use mechanics::sections::section_shape::shear_factor;
-use mechanics::sections::{CrossSection, Fibre, Section, SectionShape, SectionStresses, Stiffness};
+use mechanics::elements::beam::FibreGroup;
+use mechanics::materials::uniaxial::UniaxialLaw;
+use mechanics::sections::{CrossSection, Section, SectionShape, SectionStresses, Stiffness};
 use std::collections::HashMap;
 
 /// The key of a section that an elastic beam does not use.
@@ -21,7 +24,7 @@ const MOST_FIBRES: usize = 10_000;
 /// The sections of a deck, and the stiffnesses that beams have asked of them so far.
 pub(super) struct Sections<'a, 'd> {
     table: &'d Named<OneOf<words::Section>>,
-    materials: &'a Materials<'d>,
+    pub(super) materials: &'a Materials<'d>,
     /// Section, material, whether it needs a mass and whether it deforms in shear → index in `stiffnesses`, none where there are errors.
     known: HashMap<(usize, Option<usize>, [bool; 2]), Option<usize>>,
     /// Section stiffnesses that beams have asked for.
@@ -42,8 +45,14 @@ impl<'a, 'd> Sections<'a, 'd> {
         }
     }
 
-    /// Fibres of a section with a material; both are free of errors.
-    pub fn fibres(&self, name: &'d At<String>, made_of: &'d At<String>, report: &mut Report<'d>) -> Option<Vec<Fibre>> {
+    /// Fibres of a section with a material of this law, by material; all are free of errors.
+    pub fn fibres(
+        &self,
+        name: &'d At<String>,
+        (made_of, law): (&'d At<String>, UniaxialLaw),
+        needs_mass: bool,
+        report: &mut Report<'d>,
+    ) -> Option<Vec<SectionPart>> {
         let (_, section) = report.find("section", self.table, name)?;
         let (_, material) = self.materials.find(made_of, report)?;
         let ratio = material.poisson_ratio.as_ref()?.value;
@@ -57,10 +66,21 @@ impl<'a, 'd> Sections<'a, 'd> {
         let (CrossSection::Shape(shape), factor) = cross_section(&name.value, section, false, report)? else {
             return None;
         };
-        match whole(&*shape, ratio, factor).and_then(|section| shape.fibres(&numbers, &section)) {
-            Ok(fibres) => Some(fibres),
-            Err(reason) => report.error(counts.unwrap_or(&name.span), format!("section `{}`: {reason}", name.value)),
+        let made = whole(&*shape, ratio, factor).and_then(|section| shape.fibres(&numbers, &section));
+        let (fibres, counts) = match made.and_then(|fibres| Ok((fibres, shape.counts(&numbers)?))) {
+            Ok(made) => made,
+            Err(reason) => {
+                let place = counts.unwrap_or(&name.span);
+                return report.error(place, format!("section `{}`: {reason}", name.value));
+            }
+        };
+        let density = material.density.as_ref().map_or(0.0, |density| density.value);
+        let base = SectionPart { group: FibreGroup { law, fibres }, density };
+        if !is_composite(section) {
+            return Some(vec![base]);
         }
+        self.require_concrete(made_of, &base.group.law, report)?;
+        self.reinforce((name, section), &*shape, counts, base, needs_mass, report)
     }
 
     /// Index of the stiffness for a beam's section and material; `shear` is true for a beam with shear deformation.
@@ -102,6 +122,17 @@ impl<'a, 'd> Sections<'a, 'd> {
             return *known;
         }
         let made = stiffness(&name.value, section, numbers, needs_mass, report);
+        let made = made.and_then(|(stiffness, stresses)| {
+            if !is_composite(section) {
+                return Some((stiffness, stresses));
+            }
+            let made_of = made_of.as_ref()?;
+            let (_, of) = self.materials.find(made_of, report)?;
+            let law = self.materials.law_of_fibres(made_of)?;
+            let law = law.unwrap_or(UniaxialLaw::Elastic(of.youngs_modulus.as_ref()?.value));
+            let parts = self.fibres(name, (made_of, law), needs_mass, report)?;
+            Some((with_fibres(&stiffness, &parts), stresses))
+        });
         let index = made.map(|(stiffness, stresses)| {
             self.stresses.push(stresses);
             self.stiffnesses.push(if shear { stiffness } else { stiffness.without_shear() });

@@ -1,4 +1,4 @@
-//! Stress from strain at a point: J2 plasticity with isotropic and kinematic hardening, rate-independent or viscous.
+//! Stress from strain at a point: laws of normal stress ([`uniaxial`]), and J2 plasticity with isotropic and kinematic hardening, rate-independent or viscous.
 //!
 //! One law serves three stress states; it answers and does not remember. Backward Euler over the step, with the tangent of exactly that
 //! (13)-(18); any increment converges. The caller owns the history variables: zeros at the start, then the values of the last accepted
@@ -14,6 +14,7 @@ pub mod overstress;
 mod response;
 mod return_mapping;
 pub mod stress_state;
+pub mod uniaxial;
 
 pub use constants::ElasticConstants;
 pub use dissipation::Dissipation;

@@ -59,6 +59,27 @@ impl SectionShape for Rectangle {
         Some(SectionOutline::Points(rectangle_points(self.width, self.height, nu, section)))
     }
 
+    fn depth(&self, [y, z]: [f64; 2]) -> Option<f64> {
+        Some((0.5 * self.width - y.abs()).min(0.5 * self.height - z.abs()))
+    }
+
+    fn cover_and_core(&self, cover: f64, [along_y, along_z]: [usize; 2]) -> Option<[Vec<Fibre>; 2]> {
+        let (width, height) = (self.width - 2.0 * cover, self.height - 2.0 * cover);
+        if width.min(height) <= 0.0 {
+            return None;
+        }
+        let block = |size: [f64; 2], counts: [usize; 2], at: [f64; 2]| {
+            let fibres = rectangle_fibres(size[0], size[1], counts).into_iter();
+            fibres.map(move |f| Fibre { y: f.y + at[0], z: f.z + at[1], shear: [[0.0; 3]; 2], ..f })
+        };
+        let mut strips = Vec::new();
+        for side in [-0.5, 0.5] {
+            strips.extend(block([self.width, cover], [along_y, 2], [0.0, side * (height + cover)]));
+            strips.extend(block([cover, height], [2, along_z], [side * (width + cover), 0.0]));
+        }
+        Some([strips, block([width, height], [along_y, along_z], [0.0; 2]).collect()])
+    }
+
     fn half_depth(&self) -> f64 {
         0.5 * self.width.min(self.height)
     }

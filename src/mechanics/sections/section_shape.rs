@@ -47,6 +47,17 @@ pub trait SectionShape: fmt::Debug {
         Some(SectionStresses::new(section, self.outline(nu, section)?))
     }
 
+    /// The distance of a place (y, z) within the shape from its surface, below 0 outside; `None` of shapes that hold no bars.
+    fn depth(&self, _at: [f64; 2]) -> Option<f64> {
+        None
+    }
+
+    /// Fibres of a cover of this thickness, and of the core within it, without modes for shear; `None` of shapes that have no core, and where
+    /// the cover leaves none.
+    fn cover_and_core(&self, _cover: f64, _counts: [usize; 2]) -> Option<[Vec<Fibre>; 2]> {
+        None
+    }
+
     /// Half its smaller side, or its radius: the contact radius of a beam.
     fn half_depth(&self) -> f64;
 
@@ -65,6 +76,12 @@ pub trait SectionShape: fmt::Debug {
     ///
     /// Errors: counts that are odd or too few; a general section.
     fn fibres(&self, counts: &[usize], section: &Section) -> Result<Vec<Fibre>, String> {
+        let fibres = self.lay_fibres(self.counts(counts)?, section)?;
+        calibrated(fibres, section).ok_or_else(|| "these fibres cannot carry shear and torsion; take more".into())
+    }
+
+    /// The numbers of fibres along both directions; see [`SectionShape::fibres`].
+    fn counts(&self, counts: &[usize]) -> Result<[usize; 2], String> {
         let default = self.default_fibres(counts.first().copied())?;
         let counts = match *counts {
             [] => default,
@@ -80,8 +97,7 @@ pub trait SectionShape: fmt::Debug {
         if let Some(n) = counts.iter().find(|&&n| n == 0 || n % 2 == 1) {
             return Err(format!("the number of fibres is {n}, but must be even, as they lie in pairs"));
         }
-        let fibres = self.lay_fibres(counts, section)?;
-        calibrated(fibres, section).ok_or_else(|| "these fibres cannot carry shear and torsion; take more".into())
+        Ok(counts)
     }
 }
 

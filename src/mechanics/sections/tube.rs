@@ -74,6 +74,24 @@ impl SectionShape for Tube {
         Some(SectionOutline::Circle { outer: self.radius, inner: self.radius - self.thickness, nu })
     }
 
+    fn depth(&self, [y, z]: [f64; 2]) -> Option<f64> {
+        let outside = self.radius - y.hypot(z);
+        // A full circle has no surface inside.
+        Some(if self.thickness < self.radius { outside.min(self.thickness - outside) } else { outside })
+    }
+
+    fn cover_and_core(&self, cover: f64, [around, through]: [usize; 2]) -> Option<[Vec<Fibre>; 2]> {
+        let core = self.radius - cover;
+        if self.thickness < self.radius || core <= 0.0 {
+            return None;
+        }
+        let ring = |outer: f64, inner: f64, through: usize| {
+            let fibres = tube_fibres(outer, inner, 0.0, [around, through]).into_iter();
+            fibres.map(|fibre| Fibre { shear: [[0.0; 3]; 2], ..fibre }).collect()
+        };
+        Some([ring(self.radius, core, 2), ring(core, 0.0, through)])
+    }
+
     fn half_depth(&self) -> f64 {
         self.radius
     }

@@ -24,6 +24,7 @@ use deck::beams as words;
 use deck::words::Vector;
 use mechanics::elements::beam::{DEFAULT_ORDER, FibreModel, IntegrationRule, MOST_POINTS};
 use mechanics::elements::heat::Heat;
+use mechanics::materials::uniaxial::UniaxialLaw;
 use std::collections::HashSet;
 
 /// Sine of the angle between orientation and axis below which they count as parallel.
@@ -316,7 +317,11 @@ fn yielding<'d>(
     cx: &mut PartContext<'_, 'd>,
 ) -> Option<Option<FibreModel>> {
     let unused = keys!(beam; integration, points, shear_yields);
-    let Some(law) = cx.materials.yielding_of(&beam.material)? else {
+    let law = match &beam.material {
+        Some(name) => cx.materials.law_of_fibres(name)?,
+        None => None,
+    };
+    let Some(law) = law else {
         cx.report.reject_unused(&format!("{}, whose material is elastic", owner.what), &unused);
         return Some(None);
     };
@@ -353,11 +358,21 @@ fn yielding<'d>(
             "`shear_yields = true` contradicts `shear = false`: a beam without shear deformation cannot yield in shear";
         return cx.report.error_with(&yields.span, message, "leave one of the two out");
     }
-    let shear = deforms && flag(&beam.shear_yields, true);
+    let has_shear = matches!(law, UniaxialLaw::Plastic(_));
+    if let Some(yields) = beam.shear_yields.as_ref().filter(|yields| yields.value && !has_shear) {
+        let message = format!("{} is of a material under normal stress alone: shear and torsion stay elastic", owner.what);
+        return cx.report.error_with(&yields.span, message, "leave `shear_yields` out");
+    }
+    let shear = has_shear && deforms && flag(&beam.shear_yields, true);
     // A wrong section has been reported.
     let (of, made_of) = (beam.section.as_ref()?, beam.material.as_ref()?);
-    let fibres = if section { cx.sections.fibres(of, made_of, cx.report)? } else { return None };
-    Some(Some(FibreModel { law, fibres, shear, rule, points }))
+    if !section {
+        return None;
+    }
+    let needs_mass = cx.materials.needs_mass(chosen(&beam.mass));
+    let parts = cx.sections.fibres(of, (made_of, law), needs_mass, cx.report)?;
+    let groups = parts.into_iter().map(|part| part.group).collect();
+    Some(Some(FibreModel { groups, shear, rule, points }))
 }
 
 /// Section frame of each segment: x along it, y towards the orientation, z = x × y.

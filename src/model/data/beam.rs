@@ -83,9 +83,10 @@ impl PartAnswers for Beam {
 
     fn make_elastic(&mut self) -> Option<YieldLimit> {
         let model = self.yielding.take()?;
-        let fibres = model.fibres.iter().map(|fibre| [fibre.y, fibre.z]).collect();
+        let (law, fibres) = model.plastic()?;
+        let fibres = fibres.iter().map(|fibre| [fibre.y, fibre.z]).collect();
         let sections = self.elements.iter().map(|element| element.section).collect();
-        Some(YieldLimit { fibres, sections, ..YieldLimit::of(&model.law) })
+        Some(YieldLimit { fibres, sections, ..YieldLimit::of(law) })
     }
 
     fn elements(&self) -> usize {

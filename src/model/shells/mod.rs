@@ -391,7 +391,7 @@ fn read_counts<'d>(counts: &At<OneOrMany<u64>>, cx: &mut PartContext<'_, 'd>) ->
 /// Reads the yield model of the shell: `Some(None)` for elastic material, `None` after errors.
 fn layers<'d>(owner: &Owner<'d>, shell: &'d words::Shell, cx: &mut PartContext<'_, 'd>) -> Option<Option<LayerModel>> {
     // Errors of the material have been reported.
-    let Some(law) = cx.materials.yielding_of(&shell.material)? else {
+    let Some(law) = cx.materials.yielding_of(&shell.material, &owner.what, cx.report)? else {
         cx.report.reject_unused(&format!("{}, whose material is elastic", owner.what), &keys!(shell; layers, strain));
         return Some(None);
     };

@@ -1,5 +1,6 @@
 //! Beams as the model describes them, and the quantities computed once from the undeformed geometry.
 
+use super::composite::{CompositeProfile, CompositeSection, FibreGroup};
 use super::fibres::{FibreProfile, FibreSection};
 use super::kinematics::{Beam, BeamHeat, Beams};
 use super::section::{BeamSection, BeamStiffness};
@@ -7,9 +8,11 @@ use super::shape::{IntegrationRule, ShapeFunctions};
 use super::varied::VariedSection;
 use crate::elements::block::ElementBlock;
 use crate::elements::heat::{Heat, HeatNodes};
+use crate::materials::uniaxial::UniaxialLaw;
 use crate::materials::{FibreStress, MaterialLaw, StressState, Uniaxial};
 use crate::sections::{Fibre, Stiffness};
 use base::math::{Mat3, Vec3};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// One element as the model describes it.
@@ -74,13 +77,11 @@ impl<const N: usize> Beams<N, VariedSection> {
     }
 }
 
-/// A section of fibres whose material yields.
+/// A section of fibres of one or several materials of which one yields.
 #[derive(Debug, Clone)]
 pub struct FibreModel {
-    /// The law of the fibres.
-    pub law: MaterialLaw,
-    /// The fibres of the section, in section axes.
-    pub fibres: Vec<Fibre>,
+    /// The fibres of the section by material.
+    pub groups: Vec<FibreGroup>,
     /// Shear stress enters the yield condition; otherwise shear and torsion stay elastic.
     pub shear: bool,
     /// The integration rule along the length of an element.
@@ -101,23 +102,54 @@ impl FibreModel {
         }
     }
 
-    fn of_nodes<const N: usize>(&self, elements: &[BeamGeometry], setting: BeamSetting) -> Box<dyn ElementBlock> {
-        match self.shear {
-            true => self.in_state::<N, _, 3>(FibreStress, elements, setting),
-            false => self.in_state::<N, _, 1>(Uniaxial, elements, setting),
+    /// The law and the fibres of a section of one material with J2 plasticity; `None` of all others.
+    pub fn plastic(&self) -> Option<(&MaterialLaw, &[Fibre])> {
+        match &self.groups[..] {
+            [FibreGroup { law: UniaxialLaw::Plastic(law), fibres }] => Some((law, fibres)),
+            _ => None,
         }
+    }
+
+    /// The number of fibres.
+    pub fn fibres(&self) -> usize {
+        self.groups.iter().map(|group| group.fibres.len()).sum()
+    }
+
+    fn of_nodes<const N: usize>(&self, elements: &[BeamGeometry], setting: BeamSetting) -> Box<dyn ElementBlock> {
+        match (self.plastic(), self.shear) {
+            (Some(plastic), true) => self.in_state::<N, _, 3>((FibreStress, plastic), elements, setting),
+            (Some(plastic), false) => self.in_state::<N, _, 1>((Uniaxial, plastic), elements, setting),
+            (None, _) => self.composite::<N>(elements, setting),
+        }
+    }
+
+    /// Beams of several materials, or of one that has normal stress alone. Points that stand for one length share their fibres.
+    fn composite<const N: usize>(&self, elements: &[BeamGeometry], setting: BeamSetting) -> Box<dyn ElementBlock> {
+        let rule = self.rule.points(self.points);
+        let (mut profiles, mut first) = (HashMap::new(), 0);
+        let section = |e: &BeamGeometry, length: f64| {
+            let of_point = |weight: &f64| {
+                let own = 0.5 * weight * length;
+                let new = || Arc::new(CompositeProfile::new(&self.groups, own, e.stiffness));
+                Arc::clone(profiles.entry(own.to_bits()).or_insert_with(new))
+            };
+            let section = CompositeSection::new(rule.1.iter().map(of_point).collect(), e.frame, first);
+            first += section.history();
+            section
+        };
+        Box::new(Beams::<N, CompositeSection>::build(elements, setting, rule, section))
     }
 
     /// Beams whose fibres are in the stress state `state`.
     fn in_state<const N: usize, S: StressState<C> + 'static, const C: usize>(
         &self,
-        state: S,
+        (state, (law, fibres)): (S, (&MaterialLaw, &[Fibre])),
         elements: &[BeamGeometry],
         setting: BeamSetting,
     ) -> Box<dyn ElementBlock> {
         let (mut profile, mut first) = (None, 0);
         let section = |e: &BeamGeometry, _| {
-            let new = || Arc::new(FibreProfile::new(&self.law, state, &self.fibres, e.stiffness));
+            let new = || Arc::new(FibreProfile::new(law, state, fibres, e.stiffness));
             let section = FibreSection::new(profile.get_or_insert_with(new), e.stiffness, e.frame, first, self.points);
             first += section.history();
             section

@@ -13,6 +13,7 @@
 
 mod block;
 mod build;
+mod composite;
 mod fibre_lanes;
 mod fibre_sum;
 mod fibres;
@@ -27,6 +28,7 @@ mod tangent;
 mod varied;
 
 pub use build::{BeamGeometry, BeamSetting, FibreModel, elastic_beams};
+pub use composite::FibreGroup;
 pub use section::BeamStiffness;
 pub use shape::{IntegrationRule, MOST_POINTS, cubic_deflection};
 

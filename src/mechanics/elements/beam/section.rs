@@ -131,6 +131,11 @@ impl BeamStiffness {
         BeamStiffness { N: factor * self.N, M: factor * self.M, NM: factor * self.NM, coupled: self.coupled }
     }
 
+    /// The stiffness and another.
+    pub fn plus(&self, other: &Self) -> Self {
+        BeamStiffness { N: self.N + other.N, M: self.M + other.M, NM: self.NM + other.NM, coupled: true }
+    }
+
     /// The stiffness less another.
     pub fn less(&self, other: &Self) -> Self {
         BeamStiffness { N: self.N - other.N, M: self.M - other.M, NM: self.NM - other.NM, coupled: true }

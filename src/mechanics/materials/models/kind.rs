@@ -4,6 +4,7 @@ use crate::materials::failure::{FactorTable, FailureCriterion};
 use crate::materials::hardening::Hardening;
 use crate::materials::law::MaterialLaw;
 use crate::materials::overstress::Viscosity;
+use crate::materials::uniaxial::UniaxialLaw;
 use base::names::short;
 use base::words::kinds::{Form, Given, Key, Kind};
 
@@ -21,8 +22,9 @@ pub struct MaterialModel {
     pub is_viscous: bool,
 }
 
-/// The law of a material with E, ν and the viscosity it needs; `None` where a key is wrong.
-pub type MakeLaw = fn(&mut Given, [f64; 2], Option<Viscosity>) -> Option<MaterialLaw>;
+/// The law of a material with E, ν and the viscosity it needs; `None` where a key is wrong. A constant that the deck does not give is not a
+/// number.
+pub type MakeLaw = fn(&mut Given, [f64; 2], Option<Viscosity>) -> Option<UniaxialLaw>;
 
 /// The keys of J2 plasticity.
 pub const PLASTICITY: [Key; 7] = [
@@ -64,7 +66,7 @@ pub const PLASTICITY: [Key; 7] = [
 ];
 
 /// J2 plasticity of the keys [`PLASTICITY`].
-pub fn plasticity(given: &mut Given, [E, nu]: [f64; 2], viscosity: Option<Viscosity>) -> Option<MaterialLaw> {
+pub fn plasticity(given: &mut Given, [E, nu]: [f64; 2], viscosity: Option<Viscosity>) -> Option<UniaxialLaw> {
     let hardening = hardening(given);
     let share = given.not_negative("kinematic_share", 0.0);
     if share > 1.0 {
@@ -77,7 +79,7 @@ pub fn plasticity(given: &mut Given, [E, nu]: [f64; 2], viscosity: Option<Viscos
             let needs = format!("`{key}` needs `failure_strain`, which it multiplies");
             given.error::<()>(key, needs);
         }
-        return Some(law);
+        return Some(UniaxialLaw::Plastic(law));
     }
     let strain = given.positive("failure_strain")?;
     if strain > MOST_LIKELY_FAILURE {
@@ -89,7 +91,7 @@ pub fn plasticity(given: &mut Given, [E, nu]: [f64; 2], viscosity: Option<Viscos
     if rate.as_ref().is_some_and(|rate| rate.first() < 0.0) {
         given.error::<()>("failure_rate", "rates of plastic strain must not be negative");
     }
-    Some(law.failing_at(FailureCriterion { strain, triaxiality, rate }))
+    Some(UniaxialLaw::Plastic(law.failing_at(FailureCriterion { strain, triaxiality, rate })))
 }
 
 /// The table of factors behind a key, where it is written.

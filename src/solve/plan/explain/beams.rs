@@ -25,7 +25,7 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
             text.add_of("grading", BEAMS, &beam.name, graded);
         }
         let Some(yielding) = &beam.yielding else { continue };
-        let (fibres, points) = (yielding.fibres.len(), yielding.points);
+        let (fibres, points) = (yielding.fibres(), yielding.points);
         let rule = if yielding.rule == IntegrationRule::Gauss { "Gauss" } else { "Lobatto" };
         let stress = if yielding.shear { "normal and shear stress" } else { "normal stress alone" };
         let merged = if merges_fibres(beam, system.plane) {

@@ -7,7 +7,7 @@ use crate::system::inertia::ConsistentMass;
 use crate::system::plane::MotionPlane;
 use crate::tolerances::plane::SMALL;
 use base::math::{Mat3, Vec3, quadrature};
-use mechanics::elements::beam::{BeamGeometry, BeamSetting, FibreModel, elastic_beams};
+use mechanics::elements::beam::{BeamGeometry, BeamSetting, elastic_beams};
 use mechanics::elements::{ElementBlock, Force, IntegrationPoint};
 use mechanics::sections::{self, Stiffness};
 use mechanics::state::Configuration;
@@ -64,11 +64,11 @@ fn block(part: &Beam, piece: Range<usize>, setting: &Setting) -> Box<dyn Element
     match &part.yielding {
         None => elastic_beams(part.order, &elements, setting),
         Some(yielding) => {
-            let fibres = match in_plane(part, plane) {
-                Some(along_z) => sections::flattened(&yielding.fibres, along_z),
-                None => yielding.fibres.clone(),
-            };
-            FibreModel { fibres, ..yielding.clone() }.beams(part.order, &elements, setting)
+            let mut model = yielding.clone();
+            if let Some(along_z) = in_plane(part, plane) {
+                model.groups.iter_mut().for_each(|group| group.fibres = sections::flattened(&group.fibres, along_z));
+            }
+            model.beams(part.order, &elements, setting)
         }
     }
 }

@@ -1,0 +1,146 @@
+//! Reinforcing steel after Menegotto and Pinto, with the isotropic hardening of Filippou, Popov and Bertero, as Steel02 of OpenSees has it.
+//!
+//! From each reversal the stress runs along a curve between the line of slope E through the reversal and the line of hardening of slope b E:
+//!   σ* = b ε* + (1 − b) ε*/(1 + |ε*|ᴿ)^(1/R),   R = R₀ (1 − c₁ ξ/(c₂ + ξ)).
+//! ε* and σ* run from 0 at the reversal to 1 where the two lines meet. ξ is the distance in yield strains of this meeting point from the
+//! extreme strain on its side so far. The line of hardening moves outwards by the factor 1 + a₃ (Δ/2a₄ ε_y)^0.8 in tension and by a₁, a₂ in
+//! compression, where Δ is the range of strains so far. M. Menegotto and P. E. Pinto, IABSE Symposium, Lisbon 1973; F. C. Filippou, E. P.
+//! Popov and V. V. Bertero, EERC 83-19, Berkeley 1983.
+//!
+//! Omitted: buckling and rupture. After a small reversal the curve does not return to the one that it left and runs above it.
+
+use super::work;
+
+/// The parameters of a steel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MenegottoPinto {
+    /// E.
+    pub modulus: f64,
+    /// f_y.
+    pub yield_stress: f64,
+    /// b, below 1.
+    pub hardening_ratio: f64,
+    /// R₀, c₁, c₂.
+    pub curvature: [f64; 3],
+    /// a₁ to a₄.
+    pub isotropic: [f64; 4],
+}
+
+/// The history of a point. All are zero at the start.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SteelState {
+    /// Strain.
+    pub strain: f64,
+    /// Stress.
+    pub stress: f64,
+    /// 1 on a curve towards tension, −1 towards compression, 0 at the start.
+    direction: f64,
+    /// The least and the largest strain at reversals.
+    extremes: [f64; 2],
+    /// The extreme strain on the side of the curve.
+    target: f64,
+    /// Strain and stress at the last reversal.
+    reversal: [f64; 2],
+    /// Strain and stress where the two lines meet.
+    meeting: [f64; 2],
+    /// The accumulated inelastic strain, ∫ |d(ε − σ/E)|.
+    accumulated: f64,
+}
+
+/// The number of history variables.
+pub const VARIABLES: usize = 11;
+
+impl SteelState {
+    /// The state from its history variables.
+    pub fn of(history: &[f64]) -> SteelState {
+        let &[strain, stress, direction, least, most, target, rx, rs, mx, ms, accumulated, ..] = history else {
+            return SteelState::default();
+        };
+        let (extremes, reversal, meeting) = ([least, most], [rx, rs], [mx, ms]);
+        SteelState { strain, stress, direction, extremes, target, reversal, meeting, accumulated }
+    }
+
+    /// The history variables.
+    pub fn history(&self) -> [f64; VARIABLES] {
+        let SteelState { strain, stress, direction, extremes, target, reversal, meeting, accumulated } = *self;
+        let ([least, most], [rx, rs], [mx, ms]) = (extremes, reversal, meeting);
+        [strain, stress, direction, least, most, target, rx, rs, mx, ms, accumulated]
+    }
+
+    /// The accumulated inelastic strain.
+    pub fn accumulated(&self) -> f64 {
+        self.accumulated
+    }
+}
+
+impl MenegottoPinto {
+    /// ε_y.
+    fn yield_strain(&self) -> f64 {
+        self.yield_stress / self.modulus
+    }
+
+    /// The curve of a way in `direction` from `from`.
+    fn turned(&self, from: &SteelState, direction: f64) -> SteelState {
+        let yield_strain = self.yield_strain();
+        if from.direction == 0.0 {
+            let (target, meeting) = (direction * yield_strain, [direction * yield_strain, direction * self.yield_stress]);
+            return SteelState { direction, extremes: [-yield_strain, yield_strain], target, meeting, ..*from };
+        }
+        if from.direction == direction {
+            return *from;
+        }
+        let [least, most] = from.extremes;
+        let extremes = [least.min(from.strain), most.max(from.strain)];
+        let [a1, a2, a3, a4] = self.isotropic;
+        let (factor, range, target) = if direction > 0.0 { (a3, a4, extremes[1]) } else { (a1, a2, extremes[0]) };
+        let shift = match factor {
+            0.0 => 1.0,
+            _ => 1.0 + factor * ((extremes[1] - extremes[0]) / (2.0 * range * yield_strain)).powf(0.8),
+        };
+        let E = self.modulus;
+        let hardening = self.hardening_ratio * E;
+        let (strain, stress) = (direction * yield_strain * shift, direction * self.yield_stress * shift);
+        let x = (stress - hardening * strain - from.stress + E * from.strain) / (E - hardening);
+        let meeting = [x, stress + hardening * (x - strain)];
+        SteelState { direction, extremes, target, reversal: [from.strain, from.stress], meeting, ..*from }
+    }
+
+    /// Stress and slope at a strain on the curve of `at`.
+    fn curve(&self, at: &SteelState, strain: f64) -> [f64; 2] {
+        let [R0, c1, c2] = self.curvature;
+        let xi = ((at.target - at.meeting[0]) / self.yield_strain()).abs();
+        let R = R0 * (1.0 - c1 * xi / (c2 + xi));
+        let way = at.meeting[0] - at.reversal[0];
+        let rise = at.meeting[1] - at.reversal[1];
+        let b = self.hardening_ratio;
+        let part = (strain - at.reversal[0]) / way;
+        let sum = 1.0 + part.abs().powf(R);
+        let root = sum.powf(1.0 / R);
+        [at.reversal[1] + rise * (b * part + (1.0 - b) * part / root), (b + (1.0 - b) / (sum * root)) * rise / way]
+    }
+
+    /// The state at `strain` on a straight way from `from`, and its slope.
+    pub fn moved(&self, from: &SteelState, strain: f64) -> (SteelState, f64) {
+        let way = strain - from.strain;
+        if way == 0.0 {
+            let slope = if from.direction == 0.0 { self.modulus } else { self.curve(from, strain)[1] };
+            return (*from, slope);
+        }
+        let on = self.turned(from, way.signum());
+        let [stress, slope] = self.curve(&on, strain);
+        let inelastic = way - (stress - from.stress) / self.modulus;
+        (SteelState { strain, stress, accumulated: from.accumulated + inelastic.abs(), ..on }, slope)
+    }
+
+    /// The elastic energy per volume.
+    pub fn energy(&self, at: &SteelState) -> f64 {
+        0.5 * at.stress * at.stress / self.modulus
+    }
+
+    /// The energy per volume dissipated on the way between two states: the work less the change of the elastic energy. It is negative
+    /// where the curve bends before the stress has changed its sign.
+    pub fn dissipated(&self, from: &SteelState, to: &SteelState) -> f64 {
+        let work = work([from.strain, to.strain], [to.meeting[0]], |strain| self.moved(from, strain).0.stress);
+        work - (self.energy(to) - self.energy(from))
+    }
+}
