@@ -1,5 +1,7 @@
 //! `bars`, `core` and `cover` of `[sections.x]`: the fibres of a section of several materials, and its stiffness and mass.
 
+use super::data::BeamElement;
+use super::part_context::PartContext;
 use super::report::{Owner, Report};
 use super::sections::Sections;
 use base::diagnostic::{At, Span};
@@ -7,7 +9,7 @@ use base::names::short;
 use deck::sections as words;
 use deck::words::Numbers;
 use deck::words::kinds::OneOf;
-use mechanics::elements::beam::FibreGroup;
+use mechanics::elements::beam::{FibreGroup, FibreModel};
 use mechanics::materials::uniaxial::UniaxialLaw;
 use mechanics::sections::{Fibre, SectionShape, Stiffness};
 use std::f64::consts::PI;
@@ -167,6 +169,37 @@ impl<'d> Sections<'_, 'd> {
         parts.push(part);
         Some(())
     }
+}
+
+/// Reports concrete whose energy of softening is too small for the length that an integration point stands for.
+pub(super) fn check_lengths(
+    owner: &Owner,
+    yielding: &FibreModel,
+    (elements, order): (&[BeamElement], usize),
+    cx: &mut PartContext,
+) -> Option<()> {
+    let longest = |group: &FibreGroup| match &group.law {
+        UniaxialLaw::Concrete(model) => model.longest(),
+        _ => f64::INFINITY,
+    };
+    let longest = yielding.groups.iter().map(longest).fold(f64::INFINITY, f64::min);
+    let length = |element: &BeamElement| {
+        let [start, end] = element.ends(order).map(|node| cx.nodes.x(node));
+        (end - start).norm()
+    };
+    let weights = yielding.rule.points(yielding.points).1;
+    let part = 0.5 * weights.iter().copied().fold(0.0, f64::max);
+    let most = elements.iter().map(length).fold(0.0, f64::max);
+    if part * most < longest {
+        return Some(());
+    }
+    let message = format!(
+        "{}: an integration point stands for a length of {}, over which the energy of softening of its concrete is below the elastic energy",
+        owner.what,
+        short(part * most)
+    );
+    let hint = format!("take elements no longer than {}, or give `crushing_strain` and `tension_softening_modulus`", short(0.9 * longest / part));
+    cx.report.error_with(owner.span, message, hint)
 }
 
 /// The area of a bar.

@@ -3,9 +3,10 @@
 use crate::support::random::{turn, vector};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
-use rdsolve::elements::beam::{BeamGeometry, BeamSetting, FibreModel, IntegrationRule, elastic_beams};
+use rdsolve::elements::beam::{BeamGeometry, BeamSetting, FibreGroup, FibreModel, IntegrationRule, elastic_beams};
 use rdsolve::elements::heat::Heat;
 use rdsolve::elements::{ElementBlock, Moduli};
+use rdsolve::materials::uniaxial::UniaxialLaw;
 use rdsolve::materials::{FailureCriterion, Hardening, MaterialLaw};
 use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
 use rdsolve::sections::{Fibre, Stiffness};
@@ -93,8 +94,7 @@ fn agrees<const N: usize>(rng: &mut StdRng) {
         if failing > 0.0 { law.failing_at(FailureCriterion::at(failing)) } else { law }
     };
     let model = |failing| FibreModel {
-        law: law(failing),
-        fibres: fibres.to_vec(),
+        groups: vec![FibreGroup { law: UniaxialLaw::Plastic(law(failing)), fibres: fibres.to_vec() }],
         shear: N.is_multiple_of(2),
         rule: IntegrationRule::Gauss,
         points: N.max(3),

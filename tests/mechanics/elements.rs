@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, Vector3};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::bar::YieldingBars;
-use rdsolve::elements::beam::{BeamGeometry, BeamSetting, FibreModel, IntegrationRule, elastic_beams};
+use rdsolve::elements::beam::{BeamGeometry, BeamSetting, FibreGroup, FibreModel, IntegrationRule, elastic_beams};
 use rdsolve::elements::bearing::{Bearing, BearingMatrices, Bearings};
 use rdsolve::elements::bouc_wen::BoucWen;
 use rdsolve::elements::bushing::{Bushing, Bushings};
@@ -22,6 +22,7 @@ use rdsolve::elements::pinching::{Pinching, Reloading};
 use rdsolve::elements::relative_rotation::RotationalSpring;
 use rdsolve::elements::shell::{self, Plate, Quadrilaterals, Triangles};
 use rdsolve::elements::{ElementBlock, Force, Mechanics, Moduli};
+use rdsolve::materials::uniaxial::UniaxialLaw;
 use rdsolve::materials::{Dissipation, Hardening, MaterialLaw as Material, Overstress, Viscosity};
 use rdsolve::math::{Mat3, Mat6, Vec3, quadrature, rotation};
 use rdsolve::sections::{Fibre, Stiffness};
@@ -328,7 +329,8 @@ fn yielding_beams<const N: usize>(rng: &mut StdRng, name: &str, law: &Material, 
     let rules = [(IntegrationRule::Gauss, N - 1), (IntegrationRule::Gauss, 5), (IntegrationRule::Lobatto, N.max(3))];
     for shear in [true, false] {
         for (rule, points) in rules {
-            let yielding = FibreModel { law: law.clone(), fibres: fibres.clone(), shear, rule, points };
+            let groups = vec![FibreGroup { law: UniaxialLaw::Plastic(law.clone()), fibres: fibres.clone() }];
+            let yielding = FibreModel { groups, shear, rule, points };
             let frame = rotation::matrix(&turn(rng));
             let x = nodes_of(N, &frame, vector(rng, 2.0));
             let nodes: Vec<usize> = (0..N).collect();

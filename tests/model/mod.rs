@@ -3,6 +3,7 @@
 mod attachments;
 mod build;
 mod cells;
+mod concrete;
 mod damping;
 mod grading;
 mod line_loads;

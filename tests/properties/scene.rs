@@ -3,7 +3,7 @@
 use rand::rngs::StdRng;
 use rand::{Rng, RngExt};
 use rdsolve::amplitude::Amplitude;
-use rdsolve::elements::beam::{FibreModel, IntegrationRule};
+use rdsolve::elements::beam::{FibreGroup, FibreModel, IntegrationRule};
 use rdsolve::elements::damper::Damper;
 use rdsolve::elements::heat::Heat;
 use rdsolve::elements::isolator::IsolatorLaw;
@@ -12,6 +12,7 @@ use rdsolve::elements::pressure::Face;
 use rdsolve::elements::shell::{self, DRILLING, Plate};
 use rdsolve::integrators::{RotationUpdate, WilsonTheta};
 use rdsolve::linear;
+use rdsolve::materials::uniaxial::UniaxialLaw;
 use rdsolve::materials::{Hardening, MaterialLaw as Material, Overstress, Viscosity};
 use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
 use rdsolve::model::*;
@@ -359,8 +360,8 @@ pub fn soften(m: &mut Model, yield_stress: f64) {
     for (i, beam) in m.each_mut::<Beam>().enumerate() {
         let (rule, points) =
             if i % 3 == 1 { (IntegrationRule::Lobatto, 5) } else { (IntegrationRule::Gauss, beam.order + i % 2) };
-        let law = laws[i % 2].clone();
-        beam.yielding = Some(FibreModel { law, fibres: fibres.clone(), shear: i % 4 < 2, rule, points: points.min(5) });
+        let groups = vec![FibreGroup { law: UniaxialLaw::Plastic(laws[i % 2].clone()), fibres: fibres.clone() }];
+        beam.yielding = Some(FibreModel { groups, shear: i % 4 < 2, rule, points: points.min(5) });
     }
     for (i, bar) in m.each_mut::<Bar>().enumerate() {
         bar.yielding = Some(laws[i % 2].clone());

@@ -13,6 +13,7 @@ use crate::data::{Beam, BeamElement, Part, PartIndex, PartKind};
 use crate::mesh::MeshElement;
 use crate::own_damping;
 use crate::part_context::PartContext;
+use crate::reinforcement;
 use crate::report::Owner;
 use crate::sections;
 use crate::values::{chosen, flag, keys, vec3};
@@ -93,6 +94,9 @@ fn read_beam<'d>(
         return None;
     }
     elements.iter_mut().for_each(|element| element.section = section);
+    if let Some(yielding) = &yielding {
+        reinforcement::check_lengths(owner, yielding, (&elements, order), cx)?;
+    }
     if let Some(stations) = stations {
         stations.lay(&mut elements, beam, (order, shear), cx)?;
     }

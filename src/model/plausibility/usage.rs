@@ -3,9 +3,14 @@
 use deck::Deck;
 use std::collections::HashSet;
 
-/// Materials that a part of the deck names.
+/// Materials that a part or a section of the deck names.
 pub fn named_materials(deck: &Deck) -> HashSet<&str> {
-    deck.parts().filter_map(|part| part.table.material()).map(|name| name.as_str()).collect()
+    let of_parts = deck.parts().filter_map(|part| part.table.material());
+    let sections = || deck.sections.0.iter().map(|(_, section)| section);
+    let of_cores = sections().filter_map(|section| section.core.as_ref());
+    let bars = sections().filter_map(|section| section.bars.as_ref()).flat_map(|bars| &bars.value);
+    let of_bars = bars.filter_map(|bars| bars.material.as_ref());
+    of_parts.chain(of_cores).chain(of_bars).map(|name| name.as_str()).collect()
 }
 
 /// Sections that a beam of the deck names.

@@ -27,7 +27,7 @@ const STEEL: MenegottoPinto = MenegottoPinto {
 
 const HARDENING: MenegottoPinto = MenegottoPinto { isotropic: [0.05, 4.0, 0.03, 5.0], ..STEEL };
 
-/// Stresses at the turns of a path of strains by OpenSees 3.8: strain, stress in Pa to 0.1.
+/// Stresses at the turns of a path of strains by OpenSees 3.7.1: strain, stress in Pa to 0.1.
 const CONCRETE02: [[f64; 2]; 13] = [
     [-0.001, -22500000.0],
     [-0.0002, -1326923.1],

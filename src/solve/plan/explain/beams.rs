@@ -33,7 +33,11 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
         } else {
             ""
         };
-        let section = format!("{fibres} fibres at {points} {rule} points per element, yielding under {stress}{merged}");
+        let of = match yielding.groups.len() {
+            1 => String::new(),
+            materials => format!(" of {materials} kinds"),
+        };
+        let section = format!("{fibres} fibres{of} at {points} {rule} points per element, yielding under {stress}{merged}");
         text.add_of("yielding", BEAMS, &beam.name, section);
     }
 }
