@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::{Maybe, Numbers, Table};
 use super::words::kinds::Kinds;
+use super::words::{Maybe, Numbers, Table};
 use base::diagnostic::At;
 use mechanics::sections::section_shape::MakeSection;
 use mechanics::sections::{SECTIONS, SectionKind};

@@ -77,7 +77,8 @@ impl<'d> Materials<'d> {
             Some(UniaxialLaw::Plastic(law)) => Some(Some(law)),
             Some(UniaxialLaw::Concrete(_) | UniaxialLaw::MenegottoPinto(_)) => {
                 let word = self.named(name)?.kind.as_ref()?.word;
-                let message = format!("{part} cannot be made of material `{}`: model \"{word}\" is for beams", name.value);
+                let message =
+                    format!("{part} cannot be made of material `{}`: model \"{word}\" is for beams", name.value);
                 report.error_with(&name.span, message, "take model \"elastic-plastic\"")
             }
         }

@@ -55,7 +55,8 @@ pub(super) fn with_fibres(section: &Stiffness, parts: &[SectionPart]) -> Stiffne
     (out.M[(1, 1)], out.M[(2, 2)], out.M[(1, 2)], out.M[(2, 1)]) = (EIy, EIz, -EIyz, -EIyz);
     let [mass, my, mz, yy, zz, yz] = sums[1];
     let center = if mass > 0.0 { [my / mass, mz / mass] } else { [0.0; 2] };
-    let [Iy, Iz, Iyz] = [zz - mass * center[1].powi(2), yy - mass * center[0].powi(2), yz - mass * center[0] * center[1]];
+    let [Iy, Iz, Iyz] =
+        [zz - mass * center[1].powi(2), yy - mass * center[0].powi(2), yz - mass * center[0] * center[1]];
     (out.mass_per_length, out.mass_center) = (mass, center);
     out.inertia_per_length = base::math::Mat3::new(Iy + Iz, 0.0, 0.0, 0.0, Iy, -Iyz, 0.0, -Iyz, Iz);
     out
@@ -82,7 +83,11 @@ impl<'d> Sections<'_, 'd> {
             let Some([outside, inside]) = shape.cover_and_core(cover, counts) else {
                 let place = &section.cover.as_ref()?.span;
                 let message = format!("{} has no core within a cover of {}", owner.what, short(cover));
-                return report.error_with(place, message, "a core has shape \"rectangle\" or \"circle\" and some width");
+                return report.error_with(
+                    place,
+                    message,
+                    "a core has shape \"rectangle\" or \"circle\" and some width",
+                );
             };
             parts[0].group.fibres = outside;
             parts.push(SectionPart { group: FibreGroup { fibres: inside, ..part.group }, ..part });
@@ -117,16 +122,12 @@ impl<'d> Sections<'_, 'd> {
     }
 
     /// Reports a material that is no concrete.
-    pub(super) fn require_concrete(
-        &self,
-        name: &At<String>,
-        law: &UniaxialLaw,
-        report: &mut Report<'d>,
-    ) -> Option<()> {
+    pub(super) fn require_concrete(&self, name: &At<String>, law: &UniaxialLaw, report: &mut Report<'d>) -> Option<()> {
         if matches!(law, UniaxialLaw::Concrete(_)) {
             return Some(());
         }
-        let message = format!("material `{}` is no concrete: `core` and `bars` belong to sections of concrete", name.value);
+        let message =
+            format!("material `{}` is no concrete: `core` and `bars` belong to sections of concrete", name.value);
         report.error_with(&name.span, message, "name a material of model \"concrete\"")
     }
 
@@ -198,14 +199,19 @@ pub(super) fn check_lengths(
         owner.what,
         short(part * most)
     );
-    let hint = format!("take elements no longer than {}, or give `crushing_strain` and `tension_softening_modulus`", short(0.9 * longest / part));
+    let hint = format!(
+        "take elements no longer than {}, or give `crushing_strain` and `tension_softening_modulus`",
+        short(0.9 * longest / part)
+    );
     cx.report.error_with(owner.span, message, hint)
 }
 
 /// The area of a bar.
 fn area<'d>(owner: &Owner<'d>, bars: &'d words::SectionBars, report: &mut Report<'d>) -> Option<f64> {
     match (&bars.diameter, &bars.area) {
-        (Some(_), Some(area)) => report.error(&area.span, format!("{} take `diameter` or `area`, not both", owner.what)),
+        (Some(_), Some(area)) => {
+            report.error(&area.span, format!("{} take `diameter` or `area`, not both", owner.what))
+        }
         (None, Some(_)) => report.positive("area", &bars.area),
         _ => report.require_positive(owner, "diameter", &bars.diameter).map(|d| 0.25 * PI * d * d),
     }
@@ -228,7 +234,12 @@ fn places<'d>(owner: &Owner<'d>, bars: &'d words::SectionBars, report: &mut Repo
     let place = |at: &'d Option<At<Numbers<2>>>| at.as_ref().map(|at| &at.span);
     let (from, to) = (("from", place(&bars.from)), ("to", place(&bars.to)));
     if let Some(at) = &bars.at {
-        let others = [from, to, ("circle", bars.circle.as_ref().map(|at| &at.span)), ("count", bars.count.as_ref().map(|at| &at.span))];
+        let others = [
+            from,
+            to,
+            ("circle", bars.circle.as_ref().map(|at| &at.span)),
+            ("count", bars.count.as_ref().map(|at| &at.span)),
+        ];
         reject("a single bar with `at`", &others, report);
         return Some(vec![at.value.0]);
     }
@@ -243,7 +254,8 @@ fn places<'d>(owner: &Owner<'d>, bars: &'d words::SectionBars, report: &mut Repo
         return Some((0..count).map(on).collect());
     }
     if bars.from.is_none() && bars.to.is_none() {
-        let message = format!("{} need a place: `at`, `from` and `to` with `count`, or `circle` with `count`", owner.what);
+        let message =
+            format!("{} need a place: `at`, `from` and `to` with `count`, or `circle` with `count`", owner.what);
         return report.error(owner.span, message);
     }
     let from = report.require(owner, "from", &bars.from);

@@ -9,9 +9,9 @@ use deck::Deck;
 use deck::sections as words;
 use deck::words::kinds::{Given, OneOf};
 use deck::words::{Maybe, Named};
-use mechanics::sections::section_shape::shear_factor;
 use mechanics::elements::beam::FibreGroup;
 use mechanics::materials::uniaxial::UniaxialLaw;
+use mechanics::sections::section_shape::shear_factor;
 use mechanics::sections::{CrossSection, Section, SectionShape, SectionStresses, Stiffness};
 use std::collections::HashMap;
 

@@ -78,7 +78,8 @@ fn bars_count_in_stiffness_and_mass() {
 /// Each wrong deck, and words of its one message.
 #[test]
 fn wrong_decks_are_told_what_to_change() {
-    let bars = r#"bars = [{ material = "rebar", diameter = 0.02, count = 2, from = [-0.14, 0.19], to = [0.14, 0.19] }]"#;
+    let bars =
+        r#"bars = [{ material = "rebar", diameter = 0.02, count = 2, from = [-0.14, 0.19], to = [0.14, 0.19] }]"#;
     let bar = |text: &str| with(bars, &format!("bars = [{{ {text} }}]"));
     let concrete = |text: &str| with("crushing_strain = 0.006", text);
     let rows = [
@@ -86,33 +87,60 @@ fn wrong_decks_are_told_what_to_change() {
             with("= 30e6", "= -30e6"),
             "`compressive_strength` is -3e7, but strengths and strains of concrete are magnitudes, above 0; take 3e7",
         ),
-        (concrete("crushing_strain = -0.006"), "`crushing_strain` is -0.006, but strengths and strains of concrete are magnitudes"),
+        (
+            concrete("crushing_strain = -0.006"),
+            "`crushing_strain` is -0.006, but strengths and strains of concrete are magnitudes",
+        ),
         (concrete(""), "material `plain` needs `crushing_strain` or `crushing_energy`"),
-        (concrete("crushing_strain = 0.001"), "the strength is reached at 2 compressive_strength / youngs_modulus = 0.002"),
-        (concrete("crushing_strain = 0.006\ncrushing_energy = 3e4"), "takes `crushing_strain` or `crushing_energy`, not both"),
-        (concrete("crushing_strain = 0.006\ntensile_strength = 2e6"), "needs `tension_softening_modulus` or `fracture_energy`"),
+        (
+            concrete("crushing_strain = 0.001"),
+            "the strength is reached at 2 compressive_strength / youngs_modulus = 0.002",
+        ),
+        (
+            concrete("crushing_strain = 0.006\ncrushing_energy = 3e4"),
+            "takes `crushing_strain` or `crushing_energy`, not both",
+        ),
+        (
+            concrete("crushing_strain = 0.006\ntensile_strength = 2e6"),
+            "needs `tension_softening_modulus` or `fracture_energy`",
+        ),
         (
             concrete("crushing_strain = 0.006\ntensile_strength = 40e6\ntension_softening_modulus = 1e9"),
             "`tensile_strength` is 4e7, above the compressive strength 3e7; a tenth of it is common",
         ),
         (concrete("crushing_strain = 0.006\nfracture_energy = 100.0"), "`fracture_energy` needs `tensile_strength`"),
-        (concrete("crushing_strain = 0.006\nresidual_strength = 31e6"), "`residual_strength` is 3.1e7, above the compressive strength"),
+        (
+            concrete("crushing_strain = 0.006\nresidual_strength = 31e6"),
+            "`residual_strength` is 3.1e7, above the compressive strength",
+        ),
         (
             concrete("crushing_strain = 0.006\nunloading_ratio = 0.01"),
             "unloading from the crushing strain would end in tension; take 0.0333 or more",
         ),
         (concrete("crushing_energy = 3e3"), "an integration point stands for a length of 0.333"),
         (with("yield_stress = 500e6", ""), "material `rebar` needs `yield_stress`"),
-        (with("yield_stress = 500e6", "yield_stress = 500e6\nisotropic = [0.1, 1.0]"), "`isotropic` takes four numbers"),
+        (
+            with("yield_stress = 500e6", "yield_stress = 500e6\nisotropic = [0.1, 1.0]"),
+            "`isotropic` takes four numbers",
+        ),
         (with("yield_stress = 500e6", "yield_stress = 500e6\ncurvature = [20.0, 1.0, 0.15]"), "cR1 from 0 to below 1"),
         (
             bar(r#"material = "rebar", diameter = 0.02, at = [0.0, 0.245]"#),
             "the bar at [0, 0.245] does not lie within section `column`; its centre is 0.005 deep, its radius is 0.01",
         ),
-        (bar(r#"material = "plain", diameter = 0.02, at = [0.0, 0.0]"#), "are of concrete, material `plain`; name a material of steel"),
-        (bar(r#"material = "rebar", diameter = 0.02"#), "need a place: `at`, `from` and `to` with `count`, or `circle` with `count`"),
+        (
+            bar(r#"material = "plain", diameter = 0.02, at = [0.0, 0.0]"#),
+            "are of concrete, material `plain`; name a material of steel",
+        ),
+        (
+            bar(r#"material = "rebar", diameter = 0.02"#),
+            "need a place: `at`, `from` and `to` with `count`, or `circle` with `count`",
+        ),
         (bar(r#"material = "rebar", at = [0.0, 0.0]"#), "needs `diameter`"),
-        (bar(r#"material = "rebar", diameter = 0.02, area = 1e-4, at = [0.0, 0.0]"#), "take `diameter` or `area`, not both"),
+        (
+            bar(r#"material = "rebar", diameter = 0.02, area = 1e-4, at = [0.0, 0.0]"#),
+            "take `diameter` or `area`, not both",
+        ),
         (bar(r#"material = "rebar", diameter = 0.02, circle = 0.1"#), "needs `count`"),
         (bar(r#"material = "rebar", diameter = 0.02, circle = 0.1, count = 1"#), "`count` must lie between 2 and 1000"),
         (bar(r#"diameter = 0.02, at = [0.0, 0.0]"#), "needs `material`"),
@@ -126,7 +154,9 @@ fn wrong_decks_are_told_what_to_change() {
             "is of a material under normal stress alone: shear and torsion stay elastic",
         ),
         (
-            format!("{COLUMN}\n[[bars]]\nname = \"stay\"\npath = [\"foot\", \"top\"]\nmaterial = \"rebar\"\narea = 1e-4\n"),
+            format!(
+                "{COLUMN}\n[[bars]]\nname = \"stay\"\npath = [\"foot\", \"top\"]\nmaterial = \"rebar\"\narea = 1e-4\n"
+            ),
             "bar `stay` cannot be made of material `rebar`: model \"menegotto-pinto\" is for beams",
         ),
     ];

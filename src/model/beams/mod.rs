@@ -364,7 +364,8 @@ fn yielding<'d>(
     }
     let has_shear = matches!(law, UniaxialLaw::Plastic(_));
     if let Some(yields) = beam.shear_yields.as_ref().filter(|yields| yields.value && !has_shear) {
-        let message = format!("{} is of a material under normal stress alone: shear and torsion stay elastic", owner.what);
+        let message =
+            format!("{} is of a material under normal stress alone: shear and torsion stay elastic", owner.what);
         return cx.report.error_with(&yields.span, message, "leave `shear_yields` out");
     }
     let shear = has_shear && deforms && flag(&beam.shear_yields, true);

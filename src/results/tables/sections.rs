@@ -14,7 +14,8 @@ pub static TABLE: TableKind = TableKind {
             element, in equilibrium with the forces at the nodes. With { at = \"both\" } the table has both kinds of rows. Stresses are \
             those of the elastic section under the resultants, at its extreme points: corners, faces of walls, middles of sides, the edge \
             of a tube. If the material yields, they are those of the fibres, at integration points alone. The von Mises stress then has \
-            no shear stress unless the yield condition contains it. Sections of shape \"general\" have none. Written with `[output] \
+            no shear stress unless the yield condition contains it. In concrete `plastic_strain` is the larger of the plastic strain of \
+            crushing and the accumulated plastic strain of the bars. Sections of shape \"general\" have none. Written with `[output] \
             sections` if there are beams.",
     columns: &[
         &[

@@ -44,13 +44,15 @@ fn strain(fibre: &Fibre, [gamma, kappa]: [&Vec3; 2]) -> f64 {
 impl CompositeProfile {
     /// The fibres at a point that stands for this length of the beam. `section` gives the stiffness in shear and torsion.
     pub fn new(groups: &[FibreGroup], length: f64, section: &Stiffness) -> Self {
-        let of_point = |group: &FibreGroup| FibreGroup { law: group.law.of_length(length), fibres: group.fibres.clone() };
+        let of_point =
+            |group: &FibreGroup| FibreGroup { law: group.law.of_length(length), fibres: group.fibres.clone() };
         let groups: Vec<_> = groups.iter().map(of_point).collect();
         let mut own = FibreSum::default();
         for group in &groups {
             group.fibres.iter().for_each(|fibre| own.add(fibre, &[[group.law.modulus()]]));
         }
-        let only = |K: &Mat3, keep: fn(usize, usize) -> bool| Mat3::from_fn(|i, j| if keep(i, j) { K[(i, j)] } else { 0.0 });
+        let only =
+            |K: &Mat3, keep: fn(usize, usize) -> bool| Mat3::from_fn(|i, j| if keep(i, j) { K[(i, j)] } else { 0.0 });
         let shear = BeamStiffness {
             N: only(&section.N, |i, j| i > 0 && j > 0),
             M: only(&section.M, |i, j| i == 0 && j == 0),
@@ -301,7 +303,8 @@ mod tests {
         let (groups, section) = groups();
         let whole = CompositeProfile::new(&groups, 0.2, &section).whole;
         let (concrete, bar) = (30e9 * 0.4 * 0.5, 170e9 * 3e-4);
-        let close = |value: f64, exact: f64| assert!((value - exact).abs() < 1e-12 * exact.abs(), "{value} for {exact}");
+        let close =
+            |value: f64, exact: f64| assert!((value - exact).abs() < 1e-12 * exact.abs(), "{value} for {exact}");
         close(whole.N[(0, 0)], concrete + 3.0 * bar);
         close(whole.M[(1, 1)], concrete * 0.25 / 12.0 + 3.0 * bar * 0.19f64.powi(2));
         close(whole.M[(2, 2)], concrete * 0.16 / 12.0 + 2.0 * bar * 0.01);
@@ -345,7 +348,9 @@ mod tests {
                 let (k, whole) = (j % 3, &section.elastic);
                 let [cn, cm, sizes] = match j {
                     0..3 => [C.N.column(k).into_owned(), C.NM.row(k).transpose(), Vec3::new(whole.N[(k, k)], 0.0, 0.0)],
-                    _ => [C.NM.column(k).into_owned(), C.M.column(k).into_owned(), Vec3::new(whole.M[(k, k)], 0.0, 0.0)],
+                    _ => {
+                        [C.NM.column(k).into_owned(), C.M.column(k).into_owned(), Vec3::new(whole.M[(k, k)], 0.0, 0.0)]
+                    }
                 };
                 let error = (n - cn).amax().max((m - cm).amax()) / sizes.x;
                 assert!(error < 0.2, "{j}: {n} {cn} {m} {cm}");

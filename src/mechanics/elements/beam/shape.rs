@@ -20,7 +20,7 @@ pub enum IntegrationRule {
 
 impl IntegrationRule {
     /// The n points on [−1, 1] and their weights.
-    pub(super) fn points(self, n: usize) -> (&'static [f64], &'static [f64]) {
+    pub fn points(self, n: usize) -> (&'static [f64], &'static [f64]) {
         match self {
             IntegrationRule::Gauss => quadrature::gauss(n),
             IntegrationRule::Lobatto => quadrature::lobatto(n),

@@ -67,7 +67,8 @@ fn magnitude(given: &mut Given, key: &str) -> Option<f64> {
     match given.number(key)? {
         number if number > 0.0 => Some(number),
         number => {
-            let message = format!("`{key}` is {}, but strengths and strains of concrete are magnitudes, above 0", short(number));
+            let message =
+                format!("`{key}` is {}, but strengths and strains of concrete are magnitudes, above 0", short(number));
             match number < 0.0 {
                 true => given.error_with(key, message, format!("take {}", short(-number))),
                 false => given.error(key, message),
@@ -85,12 +86,16 @@ fn law(given: &mut Given, [E, _]: [f64; 2], _: Option<Viscosity>) -> Option<Unia
     let ratio = given.between("unloading_ratio", [0.0, 0.9], UNLOADING);
     let (strength, crushing, (tensile_strength, cracking)) = (strength?, crushing?, tension?);
     if residual > strength {
-        let message = format!("`residual_strength` is {}, above the compressive strength {}", short(residual), short(strength));
+        let message =
+            format!("`residual_strength` is {}, above the compressive strength {}", short(residual), short(strength));
         return given.error_with("residual_strength", message, "0.2 of it is common");
     }
     if tensile_strength > strength {
-        let message =
-            format!("`tensile_strength` is {}, above the compressive strength {}", short(tensile_strength), short(strength));
+        let message = format!(
+            "`tensile_strength` is {}, above the compressive strength {}",
+            short(tensile_strength),
+            short(strength)
+        );
         return given.error_with("tensile_strength", message, "a tenth of it is common");
     }
     let model =
@@ -107,7 +112,10 @@ fn law(given: &mut Given, [E, _]: [f64; 2], _: Option<Viscosity>) -> Option<Unia
         }
         let least = residual / (E * strain);
         if given.has("unloading_ratio") && ratio < least {
-            let message = format!("`unloading_ratio` is {}: unloading from the crushing strain would end in tension", short(ratio));
+            let message = format!(
+                "`unloading_ratio` is {}: unloading from the crushing strain would end in tension",
+                short(ratio)
+            );
             return given.error_with("unloading_ratio", message, format!("take {} or more", short(least)));
         }
     }

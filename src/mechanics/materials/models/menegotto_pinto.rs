@@ -47,9 +47,16 @@ fn law(given: &mut Given, [E, _]: [f64; 2], _: Option<Viscosity>) -> Option<Unia
         [] if !given.has("isotropic") => [0.0, 1.0, 0.0, 1.0],
         [a1, a2, a3, a4] if a1 >= 0.0 && a2 > 0.0 && a3 >= 0.0 && a4 > 0.0 => [a1, a2, a3, a4],
         _ => {
-            let message = "`isotropic` takes four numbers, [a1, a2, a3, a4]: a1 and a3 are 0 or more, a2 and a4 above 0";
+            let message =
+                "`isotropic` takes four numbers, [a1, a2, a3, a4]: a1 and a3 are 0 or more, a2 and a4 above 0";
             return given.error("isotropic", message);
         }
     };
-    Some(UniaxialLaw::MenegottoPinto(MenegottoPinto { modulus: E, yield_stress: yield_stress?, hardening_ratio, curvature, isotropic }))
+    Some(UniaxialLaw::MenegottoPinto(MenegottoPinto {
+        modulus: E,
+        yield_stress: yield_stress?,
+        hardening_ratio,
+        curvature,
+        isotropic,
+    }))
 }

@@ -183,11 +183,8 @@ impl Concrete {
     /// Unloading from the largest compression `crushed`.
     fn unloading(&self, crushed: f64) -> Unloading {
         let stress = self.compression(crushed)[0];
-        let slope = if crushed < 0.0 {
-            (stress - self.modulus * self.focus) / (crushed - self.focus)
-        } else {
-            self.modulus
-        };
+        let slope =
+            if crushed < 0.0 { (stress - self.modulus * self.focus) / (crushed - self.focus) } else { self.modulus };
         Unloading { slope, from: [crushed, stress], plastic: crushed - stress / slope }
     }
 
@@ -242,9 +239,8 @@ impl Concrete {
     pub fn dissipated(&self, from: &ConcreteState, to: &ConcreteState) -> f64 {
         let unloading = self.unloading(from.crushed);
         let [x, s] = Concrete::start(from, &unloading);
-        let meets = |slope: f64, through: [f64; 2]| {
-            x + (through[1] + slope * (x - through[0]) - s) / (self.modulus - slope)
-        };
+        let meets =
+            |slope: f64, through: [f64; 2]| x + (through[1] + slope * (x - through[0]) - s) / (self.modulus - slope);
         let plastic = unloading.plastic;
         let stops = [
             from.crushed,

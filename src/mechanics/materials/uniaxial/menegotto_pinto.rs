@@ -83,7 +83,8 @@ impl MenegottoPinto {
     fn turned(&self, from: &SteelState, direction: f64) -> SteelState {
         let yield_strain = self.yield_strain();
         if from.direction == 0.0 {
-            let (target, meeting) = (direction * yield_strain, [direction * yield_strain, direction * self.yield_stress]);
+            let (target, meeting) =
+                (direction * yield_strain, [direction * yield_strain, direction * self.yield_stress]);
             return SteelState { direction, extremes: [-yield_strain, yield_strain], target, meeting, ..*from };
         }
         if from.direction == direction {

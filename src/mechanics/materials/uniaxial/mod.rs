@@ -6,8 +6,8 @@ pub mod concrete;
 pub mod menegotto_pinto;
 
 use super::{Ask, Dissipation, MaterialLaw, Uniaxial};
-pub use concrete::{Concrete, ConcreteModel, Softening};
 use concrete::ConcreteState;
+pub use concrete::{Concrete, ConcreteModel, Softening};
 pub use menegotto_pinto::MenegottoPinto;
 use menegotto_pinto::SteelState;
 

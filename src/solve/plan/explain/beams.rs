@@ -37,7 +37,8 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
             1 => String::new(),
             materials => format!(" of {materials} kinds"),
         };
-        let section = format!("{fibres} fibres{of} at {points} {rule} points per element, yielding under {stress}{merged}");
+        let section =
+            format!("{fibres} fibres{of} at {points} {rule} points per element, yielding under {stress}{merged}");
         text.add_of("yielding", BEAMS, &beam.name, section);
     }
 }
