@@ -279,7 +279,7 @@ impl Run<'_> {
         // A stage that has stopped is compared up to there.
         let until = if control.judged.stopped { control.judged.run.end() } else { f64::INFINITY };
         let schedule = Schedule::of_trial(model, times, self.controller.looks_inside()).until(until);
-        let mut unseen = Unseen(observer);
+        let mut unseen = Unseen::new(observer);
         let mut trace = Trace::new(&mut unseen, model.solution.scheme.order() + 1, control.between);
         let (outcome, _) = self.once(&mut trace, &schedule, control);
         let comparison = trace.into_kept().with_events(self.recorder.events.met());

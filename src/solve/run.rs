@@ -173,15 +173,47 @@ impl<'a> Run<'a> {
     }
 
     /// Runs once and shows the observer these times as a comparison run. Error-controlled steps use the final tolerance of another run.
-    pub fn rehearse(&mut self, times: Vec<f64>, like: Option<StepError>, observer: &mut dyn Observer) -> Outcome {
+    /// Returns the ends of the steps, too.
+    pub fn rehearse(
+        &mut self,
+        times: Vec<f64>,
+        like: Option<StepError>,
+        observer: &mut dyn Observer,
+    ) -> (Outcome, Vec<f64>) {
+        self.rehearse_with(times, like, &[], observer)
+    }
+
+    /// Like [`Run::rehearse`], in the implicit steps of another run that end at these times. Only steps without an equilibrium are shorter.
+    pub fn rehearse_in_steps(
+        &mut self,
+        times: Vec<f64>,
+        (like, ends): (StepError, &[f64]),
+        observer: &mut dyn Observer,
+    ) -> Outcome {
+        self.rehearse_with(times, Some(like), ends, observer).0
+    }
+
+    fn rehearse_with(
+        &mut self,
+        times: Vec<f64>,
+        like: Option<StepError>,
+        ends: &[f64],
+        observer: &mut dyn Observer,
+    ) -> (Outcome, Vec<f64>) {
         let model = self.context.model;
         if let Some(StepError { tolerance, longest, .. }) = like {
             self.follow(tolerance, longest);
         }
         self.recorder.is_comparison = true;
-        let schedule = Schedule::new(model, times.into_iter(), self.controller.looks_inside());
+        let mut schedule = Schedule::new(model, times.into_iter(), self.controller.looks_inside());
+        if let (Controller::ErrorControlled(controller), false) = (&mut self.controller, ends.is_empty()) {
+            controller.take_given_steps();
+            schedule = schedule.with_ends(ends);
+        }
         observer.begin_comparison();
-        self.once(&mut Unseen(observer), &schedule, &mut SingleRun).0
+        let mut unseen = Unseen::new(observer);
+        let outcome = self.once(&mut unseen, &schedule, &mut SingleRun).0;
+        (outcome, unseen.ends)
     }
 
     /// Prepares for a run by this tolerance, with counts from zero.

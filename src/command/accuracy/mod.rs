@@ -65,7 +65,7 @@ pub fn settle(
 fn choose(loaded: &Loaded, deck: &Deck, asked: f64, (threads, stop): (usize, &AtomicBool)) -> ChosenSettings {
     let (source, model) = (&loaded.source, &loaded.model);
     let (effort, runs) = (Counts::default(), 0);
-    let mut pilots = Pilots { source, deck, model, tolerance: asked, threads, stop, runs, effort };
+    let mut pilots = Pilots { source, deck, model, tolerance: asked, threads, stop, ends: Vec::new(), runs, effort };
     let mut report = ReportedAccuracy { asked, ..ReportedAccuracy::default() };
     let mut coarser = None;
     match pilots.run(&[]) {

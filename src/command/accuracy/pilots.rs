@@ -13,6 +13,8 @@ use std::sync::atomic::AtomicBool;
 
 /// Number of equal intervals between the times of comparison of a motion.
 const INTERVALS: usize = 64;
+/// Ratio of the tolerance of their steps to the error asked for: the errors of steps are the same in all, and leave their differences.
+const LOOSER: f64 = 8.0;
 /// Largest number of times of comparison of a static analysis.
 const LOAD_TIMES: usize = 32;
 
@@ -29,6 +31,9 @@ pub struct Pilots<'a> {
     pub threads: usize,
     /// True once a signal has asked for the end of all runs.
     pub stop: &'a AtomicBool,
+    /// The ends of the steps of the first run, which later ones take as well: then the errors of steps are the same in all, and leave
+    /// their differences.
+    pub ends: Vec<f64>,
     /// Number of runs so far, and their effort.
     pub runs: usize,
     pub effort: Counts,
@@ -50,8 +55,21 @@ impl Pilots<'_> {
         let mut run = run.map_err(|error| error.to_string())?;
         let mut observed = ObservedRun::new(&model);
         let is_automatic = matches!(model.analysis.step_length, StepLength::ErrorControlled { .. });
+        // Contacts of another stiffness touch at other times.
+        let shares_steps = is_automatic && !model.parts.iter().any(|part| part.kind().is_unilateral());
         let like = is_automatic.then(|| StepError::new(self.tolerance));
-        let outcome = run.rehearse(self.times(), like, &mut observed);
+        let outcome = match like {
+            Some(like) if !self.ends.is_empty() => {
+                run.rehearse_in_steps(self.times(), (like, &self.ends), &mut observed)
+            }
+            Some(_) if shares_steps => {
+                let loose = StepError::new(LOOSER * self.tolerance);
+                let (outcome, ends) = run.rehearse(self.times(), Some(loose), &mut observed);
+                self.ends = ends;
+                outcome
+            }
+            like => run.rehearse(self.times(), like, &mut observed).0,
+        };
         let Counts { steps, iterations, factorizations, .. } = run.counts();
         self.runs += 1;
         self.effort.steps += steps;

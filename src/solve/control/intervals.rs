@@ -99,6 +99,25 @@ impl Schedule {
         self
     }
 
+    /// The schedule with further ends of steps, in order.
+    pub fn with_ends(mut self, ends: &[f64]) -> Schedule {
+        let divided = |interval: &Interval| {
+            let &whole @ Interval { from, to, .. } = interval;
+            let rounding = 1e-9 * (to - from);
+            let inner = ends.iter().copied().filter(move |end| *end > from + rounding && *end < to - rounding);
+            let begins: Vec<f64> = std::iter::once(from).chain(inner).collect();
+            let last = begins.len() - 1;
+            let part = move |(k, from): (usize, f64), to: f64| match k == last {
+                true => Interval { from, ..whole },
+                false => Interval { from, to, due: false, jump: false, compared: false, ..whole },
+            };
+            let tos: Vec<f64> = begins.iter().skip(1).copied().chain([to]).collect();
+            begins.into_iter().enumerate().zip(tos).map(move |(begin, to)| part(begin, to)).collect::<Vec<_>>()
+        };
+        self.intervals = self.intervals.iter().flat_map(divided).collect();
+        self
+    }
+
     /// The schedule up to a time inside.
     pub fn until(mut self, end: f64) -> Schedule {
         self.intervals.retain(|interval| interval.from < end);

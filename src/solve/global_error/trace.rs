@@ -53,20 +53,34 @@ impl<'o> Trace<'o> {
     }
 }
 
-/// Passes only the compared frames of a comparison run to another observer.
-pub struct Unseen<'o>(pub &'o mut dyn Observer);
+/// Passes only the compared frames of a comparison run to another observer, and keeps the ends of its steps.
+pub struct Unseen<'o> {
+    observer: &'o mut dyn Observer,
+    /// The ends of its steps.
+    pub ends: Vec<f64>,
+}
+
+impl<'o> Unseen<'o> {
+    /// Nothing passed yet to this observer.
+    pub fn new(observer: &'o mut dyn Observer) -> Self {
+        Unseen { observer, ends: Vec::with_capacity(USUAL_STEPS) }
+    }
+}
 
 impl Observer for Unseen<'_> {
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
-        if frame.compared { self.0.on_comparison(frame) } else { Ok(()) }
+        if !frame.inside {
+            self.ends.push(frame.state.time);
+        }
+        if frame.compared { self.observer.on_comparison(frame) } else { Ok(()) }
     }
 
     fn wants_checkpoint(&mut self, at_end: bool) -> bool {
-        self.0.wants_checkpoint(at_end)
+        self.observer.wants_checkpoint(at_end)
     }
 
     fn on_checkpoint(&mut self, run: &[u8], at_end: bool) -> io::Result<()> {
-        self.0.on_checkpoint(run, at_end)
+        self.observer.on_checkpoint(run, at_end)
     }
 }
 
