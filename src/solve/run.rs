@@ -205,7 +205,9 @@ impl<'a> Run<'a> {
             self.follow(tolerance, longest);
         }
         self.recorder.is_comparison = true;
-        let mut schedule = Schedule::new(model, times.into_iter(), self.controller.looks_inside());
+        // Times of output inside steps would cost an equilibrium each.
+        let make = if like.is_some() && self.controller.looks_inside() { Schedule::of_trial } else { Schedule::new };
+        let mut schedule = make(model, times.into_iter(), self.controller.looks_inside());
         if let (Controller::ErrorControlled(controller), false) = (&mut self.controller, ends.is_empty()) {
             controller.take_given_steps();
             schedule = schedule.with_ends(ends);
