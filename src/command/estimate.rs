@@ -69,7 +69,7 @@ pub fn effort(model: &Model, system: &System, plan: &Plan) -> Option<String> {
                 stop.store(true, Ordering::Relaxed);
             }
         });
-        let outcome = run.rehearse(Vec::new(), None, &mut clock).0;
+        let outcome = run.rehearse(Vec::new(), (None, &[]), &mut clock).0;
         // The thread that waits may have ended before.
         done.send(()).ok();
         outcome

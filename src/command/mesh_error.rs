@@ -97,7 +97,7 @@ impl OtherMesh<'_> {
         let (expectations, bars) = (Expectations::new(&theirs), ErrorBars::new(&theirs));
         let judged = Judged { expectations: self.judged.expectations, bars: self.judged.bars };
         let mut watchers = Coarser { expectations, bars, judged, is_coarsest: self.is_coarsest };
-        match run.rehearse(self.times.clone(), self.steps, &mut watchers).0 {
+        match run.rehearse(self.times.clone(), (self.steps, &[]), &mut watchers).0 {
             Outcome::Done => Ok(run.counts()),
             Outcome::Failed { time, failure } => {
                 Err(format!("the run with the coarser mesh ends at t = {time}: {failure}"))

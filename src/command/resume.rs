@@ -75,24 +75,36 @@ fn what_must_stay(text: &str) -> String {
     deck.to_string()
 }
 
-/// Finds the checkpoint of a folder for a run of this origin, and of a deck with this hash.
+/// Reads the checkpoint of a folder for a run of this origin; `None` where there is none.
 ///
 /// # Errors
-/// [`Exit::Usage`] if the folder holds something else, [`Exit::InputOutput`] if it cannot be read. A finished run returns its exit code,
-/// including [`Exit::Done`]. The reason has been shown.
-pub fn resume(folder: &Path, origin: &CheckpointOrigin, hash: &str) -> Result<Begins, Exit> {
-    let place = folder.display();
+/// [`Exit::Usage`] if the checkpoint is of another run, [`Exit::InputOutput`] if it cannot be read. The reason has been shown.
+pub fn checkpoint_in(folder: &Path, origin: &CheckpointOrigin) -> Result<Option<Checkpoint>, Exit> {
     let checkpoint = Checkpoint::read(folder).map_err(|error| {
         complain(&format!("cannot resume: {error}"));
         say("  help: --overwrite in place of --resume runs the deck from the beginning");
         Exit::InputOutput
     })?;
+    if let Some(difference) = checkpoint.as_ref().and_then(|checkpoint| checkpoint.origin.difference(origin)) {
+        complain(&format!("the checkpoint in `{}` is not of this run: {difference}", folder.display()));
+        say("  help: --overwrite in place of --resume runs the deck from the beginning; -o DIR writes elsewhere");
+        return Err(Exit::Usage);
+    }
+    Ok(checkpoint)
+}
+
+/// Where a run of this origin begins, and of a deck with this hash, by the checkpoint of its folder.
+///
+/// # Errors
+/// [`Exit::Usage`] if the folder holds something else. A finished run returns its exit code, including [`Exit::Done`]. The reason has been
+/// shown.
+pub fn resume(
+    folder: &Path,
+    checkpoint: Option<Checkpoint>,
+    (origin, hash): (&CheckpointOrigin, &str),
+) -> Result<Begins, Exit> {
+    let place = folder.display();
     if let Some(checkpoint) = checkpoint {
-        if let Some(difference) = checkpoint.origin.difference(origin) {
-            complain(&format!("the checkpoint in `{place}` is not of this run: {difference}"));
-            say("  help: --overwrite in place of --resume runs the deck from the beginning; -o DIR writes elsewhere");
-            return Err(Exit::Usage);
-        }
         let (then, now) = (&checkpoint.origin.instructions, &origin.instructions);
         if then != now {
             say(&format!("note: the checkpoint is of a run with the instructions {then}, which goes on with {now}"));

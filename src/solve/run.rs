@@ -22,6 +22,7 @@ use super::workspace::Workspace;
 use crate::plan::Plan;
 use crate::system::System;
 use crate::system::energy::Balance;
+use crate::system::kinks::has_kinks;
 use base::snapshot::{Keep, Snapshot};
 use linear::{Solver, TooLarge};
 use mechanics::state::State;
@@ -172,46 +173,30 @@ impl<'a> Run<'a> {
         (outcome.err().unwrap_or(Outcome::Done), Some(state))
     }
 
-    /// Runs once and shows the observer these times as a comparison run. Error-controlled steps use the final tolerance of another run.
-    /// Returns the ends of the steps, too.
+    /// True if forces may have kinks, such as at contact, yield and failure.
+    pub fn has_kinks(&self) -> bool {
+        has_kinks(self.context.system)
+    }
+
+    /// Runs once and shows the observer these times as a comparison run. Error-controlled steps use the final tolerance of another run, and
+    /// end at these `ends` as well. Returns the ends of the steps, too.
     pub fn rehearse(
         &mut self,
         times: Vec<f64>,
-        like: Option<StepError>,
+        (like, ends): (Option<StepError>, &[f64]),
         observer: &mut dyn Observer,
     ) -> (Outcome, Vec<f64>) {
-        self.rehearse_with(times, like, &[], observer)
-    }
-
-    /// Like [`Run::rehearse`], in the implicit steps of another run that end at these times. Only steps without an equilibrium are shorter.
-    pub fn rehearse_in_steps(
-        &mut self,
-        times: Vec<f64>,
-        (like, ends): (StepError, &[f64]),
-        observer: &mut dyn Observer,
-    ) -> Outcome {
-        self.rehearse_with(times, Some(like), ends, observer).0
-    }
-
-    fn rehearse_with(
-        &mut self,
-        times: Vec<f64>,
-        like: Option<StepError>,
-        ends: &[f64],
-        observer: &mut dyn Observer,
-    ) -> (Outcome, Vec<f64>) {
-        let model = self.context.model;
-        if let Some(StepError { tolerance, longest, .. }) = like {
+        let (model, inside) = (self.context.model, self.controller.looks_inside());
+        if let Some(StepError { asked, tolerance, longest, .. }) = like {
             self.follow(tolerance, longest);
+            if let Controller::ErrorControlled(controller) = &mut self.controller {
+                controller.iterate_to(asked.min(tolerance));
+            }
         }
         self.recorder.is_comparison = true;
         // Times of output inside steps would cost an equilibrium each.
-        let make = if like.is_some() && self.controller.looks_inside() { Schedule::of_trial } else { Schedule::new };
-        let mut schedule = make(model, times.into_iter(), self.controller.looks_inside());
-        if let (Controller::ErrorControlled(controller), false) = (&mut self.controller, ends.is_empty()) {
-            controller.take_given_steps();
-            schedule = schedule.with_ends(ends);
-        }
+        let make = if like.is_some() && inside { Schedule::of_trial } else { Schedule::new };
+        let schedule = make(model, times.into_iter(), inside).with_ends(ends);
         observer.begin_comparison();
         let mut unseen = Unseen::new(observer);
         let outcome = self.once(&mut unseen, &schedule, &mut SingleRun).0;

@@ -97,6 +97,37 @@ fn a_recommended_deck_gives_the_bytes_of_the_run() {
     assert!(text(&none.stderr).contains("--accuracy 1e-3"));
 }
 
+/// Pilot runs on finer meshes keep the long steps of the first. With steps by their own tolerance they took 0.6 of the steps of the run, now 0.2.
+#[test]
+fn pilot_runs_share_long_steps() {
+    let folder = tempfile::tempdir().unwrap();
+    let block = deck("block_on_cantilever");
+    let sets = ["analysis.accuracy=1e-3", "analysis.time_step=auto", "integrator={scheme=\"esdirk3\"}", "expect=[]"];
+    let mesh = ["beams.0.elements=1", "beams.0.order=2", "output.energy=false"];
+    let ran = rdsolve(folder.path(), &with("run", &block, &[&sets[..], &mesh].concat()));
+    assert!(ran.status.success(), "{}", text(&ran.stderr));
+    let result = result(folder.path());
+    let number = |path: &str| result.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("{path}: {result}"));
+    assert!(number("/accuracy/pilot_runs") >= 3.0, "{result}");
+    let of_pilots = number("/accuracy/pilot_steps") / number("/accuracy/pilot_runs");
+    assert!(of_pilots < 0.4 * number("/counts/steps"), "{of_pilots}");
+}
+
+/// A checkpoint of another run is refused before the pilot runs.
+#[test]
+fn another_checkpoint_is_refused_before_pilot_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let beam = deck("flying_beam");
+    let sets = ["analysis.accuracy=1e-2", "analysis.time_step=auto", "output.checkpoint=1.0", "expect=[]"];
+    let ran = rdsolve(folder.path(), &with("run", &beam, &sets));
+    assert!(ran.status.success(), "{}", text(&ran.stderr));
+    let other = [&with("run", &beam, &sets)[..], &["--set", "analysis.least_step=1e-9", "--resume"]].concat();
+    let refused = rdsolve(folder.path(), &other);
+    let said = [text(&refused.stdout), text(&refused.stderr)].concat();
+    assert_eq!(refused.status.code(), Some(2), "{said}");
+    assert!(said.contains("is not of this run") && !said.contains("pilot run"), "{said}");
+}
+
 /// A stiffness that the deck leaves open is raised until the penetration hardly matters; the values are those of a rigid stop.
 #[test]
 fn open_contacts_become_stiffer() {

@@ -13,8 +13,13 @@ use std::sync::atomic::AtomicBool;
 
 /// Number of equal intervals between the times of comparison of a motion.
 const INTERVALS: usize = 64;
-/// Ratio of the tolerance of their steps to the error asked for: the errors of steps are the same in all, and leave their differences.
+/// Ratio of the step tolerance of the first run to the error asked for: steps about twice as long by a scheme of third order, ...
 const LOOSER: f64 = 8.0;
+/// ... up to a tolerance with which steps still resolve the motion.
+const LOOSEST: f64 = 0.05;
+/// Ratio of the tolerances of later runs and the first. Only steps with four times the error of the first mesh become shorter, so meshes that are
+/// nearly as good take the same steps.
+const SLACK: f64 = 4.0;
 /// Largest number of times of comparison of a static analysis.
 const LOAD_TIMES: usize = 32;
 
@@ -31,8 +36,7 @@ pub struct Pilots<'a> {
     pub threads: usize,
     /// True once a signal has asked for the end of all runs.
     pub stop: &'a AtomicBool,
-    /// The ends of the steps of the first run, which later ones take as well: then the errors of steps are the same in all, and leave
-    /// their differences.
+    /// The ends of the steps of the first run; later ones end steps there, too, so step errors cancel in the difference between meshes.
     pub ends: Vec<f64>,
     /// Number of runs so far, and their effort.
     pub runs: usize,
@@ -55,21 +59,13 @@ impl Pilots<'_> {
         let mut run = run.map_err(|error| error.to_string())?;
         let mut observed = ObservedRun::new(&model);
         let is_automatic = matches!(model.analysis.step_length, StepLength::ErrorControlled { .. });
-        // Contacts of another stiffness touch at other times.
-        let shares_steps = is_automatic && !model.parts.iter().any(|part| part.kind().is_unilateral());
         let like = is_automatic.then(|| StepError::new(self.tolerance));
-        let outcome = match like {
-            Some(like) if !self.ends.is_empty() => {
-                run.rehearse_in_steps(self.times(), (like, &self.ends), &mut observed)
-            }
-            Some(_) if shares_steps => {
-                let loose = StepError::new(LOOSER * self.tolerance);
-                let (outcome, ends) = run.rehearse(self.times(), Some(loose), &mut observed);
-                self.ends = ends;
-                outcome
-            }
-            like => run.rehearse(self.times(), like, &mut observed).0,
-        };
+        // Events of another mesh or stiffness come at other times, and need steps of their own.
+        let like = like.map(|like| if run.has_kinks() { like } else { self.with_shared_steps(like) });
+        let (outcome, ends) = run.rehearse(self.times(), (like, &self.ends), &mut observed);
+        if is_automatic && !run.has_kinks() && matches!(outcome, Outcome::Done) && self.ends.is_empty() {
+            self.ends = ends;
+        }
         let Counts { steps, iterations, factorizations, .. } = run.counts();
         self.runs += 1;
         self.effort.steps += steps;
@@ -81,6 +77,12 @@ impl Pilots<'_> {
             Outcome::Stopped { time } => Err(format!("the pilot run{with} was stopped at t = {time}")),
             Outcome::Io(error) => Err(error.to_string()),
         }
+    }
+
+    /// The tolerance of steps that runs share, with the iteration as for the error asked for.
+    fn with_shared_steps(&self, like: StepError) -> StepError {
+        let loose = (LOOSER * self.tolerance).min(LOOSEST.max(self.tolerance));
+        StepError { tolerance: if self.ends.is_empty() { loose } else { SLACK * loose }, ..like }
     }
 
     /// The difference between the results of a run and those of a coarser one.

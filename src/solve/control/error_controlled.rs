@@ -62,13 +62,11 @@ pub struct ErrorController<'a> {
     errors: [Vec<Vec6>; 2],
     lasting: LastingError,
     events: EventLimit,
-    /// True where steps end at the ends of the schedule, whatever their error.
-    given: bool,
 }
 
 keep!(ErrorController<'_> {
     stepper, tolerance, length, longest, lasting_intensity, intensity, motion, measure, start, inside, errors, lasting, events,
- } without { asked, constant, order, first, most, given });
+ } without { asked, constant, order, first, most });
 
 /// An estimated error relative to the largest motion.
 struct Estimate {
@@ -101,13 +99,12 @@ impl<'a> ErrorController<'a> {
             errors: [vec![Vec6::zeros(); nodes], vec![Vec6::zeros(); nodes]],
             lasting: LastingError::new(nodes),
             events: EventLimit::default(),
-            given: false,
         }
     }
 
-    /// Takes the steps of the schedule, whatever their error.
-    pub fn take_given_steps(&mut self) {
-        (self.given, self.length) = (true, f64::INFINITY);
+    /// Ends the iteration as for this tolerance of the steps.
+    pub fn iterate_to(&mut self, tolerance: f64) {
+        self.stepper.solver.newton.tolerance.follow(tolerance);
     }
 
     /// True where the motion is known inside steps.
@@ -296,10 +293,6 @@ impl StepController for ErrorController<'_> {
         self.start.copy_from(state);
         let (drift, violation) = (ws.rotation_drift, ws.joint_violation);
         let report = self.stepper.step(cx, ws, state, to)?;
-        if self.given {
-            self.length = f64::INFINITY;
-            return Ok(Some(report));
-        }
         if self.events.is_passed(cx, [&self.start, state], self.tolerance) {
             self.take_back(state);
             (ws.rotation_drift, ws.joint_violation) = (drift, violation);

@@ -102,17 +102,17 @@ impl Schedule {
     /// The schedule with further ends of steps, in order.
     pub fn with_ends(mut self, ends: &[f64]) -> Schedule {
         let divided = |interval: &Interval| {
-            let &whole @ Interval { from, to, .. } = interval;
-            let rounding = 1e-9 * (to - from);
-            let inner = ends.iter().copied().filter(move |end| *end > from + rounding && *end < to - rounding);
-            let begins: Vec<f64> = std::iter::once(from).chain(inner).collect();
-            let last = begins.len() - 1;
-            let part = move |(k, from): (usize, f64), to: f64| match k == last {
-                true => Interval { from, ..whole },
-                false => Interval { from, to, due: false, jump: false, compared: false, ..whole },
-            };
-            let tos: Vec<f64> = begins.iter().skip(1).copied().chain([to]).collect();
-            begins.into_iter().enumerate().zip(tos).map(move |(begin, to)| part(begin, to)).collect::<Vec<_>>()
+            let rounding = 1e-9 * (interval.to - interval.from);
+            let (mut parts, mut rest) = (Vec::new(), *interval);
+            let first = ends.partition_point(|end| *end <= interval.from + rounding);
+            for &end in ends[first..].iter().take_while(|end| **end < interval.to - rounding) {
+                if end > rest.from + rounding {
+                    parts.push(Interval { to: end, due: false, jump: false, compared: false, ..rest });
+                    rest.from = end;
+                }
+            }
+            parts.push(rest);
+            parts
         };
         self.intervals = self.intervals.iter().flat_map(divided).collect();
         self
@@ -302,4 +302,20 @@ fn steps_between([from, to]: [f64; 2], dt: f64) -> usize {
 fn multiple(k: usize, interval: f64) -> f64 {
     let per_unit = (1.0 / interval).round();
     if (per_unit * interval - 1.0).abs() < 4.0 * f64::EPSILON { k as f64 / per_unit } else { k as f64 * interval }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ends inside an interval divide it, and its own end keeps output and comparison. Ends at its borders, outside and twice add nothing.
+    #[test]
+    fn further_ends_divide_intervals() {
+        let interval = |from, to, due| Interval { from, to, steps: 1, due, jump: due, compared: due };
+        let schedule =
+            Schedule { intervals: vec![interval(0.0, 1.0, true), interval(1.0, 3.0, true)], samples: Vec::new() };
+        let divided = schedule.with_ends(&[0.0, 0.25, 0.25, 0.5, 1.0, 2.0, 3.0, 4.0]).intervals;
+        let expected = [(0.0, 0.25, false), (0.25, 0.5, false), (0.5, 1.0, true), (1.0, 2.0, false), (2.0, 3.0, true)];
+        assert_eq!(divided, expected.map(|(from, to, due)| interval(from, to, due)));
+    }
 }
