@@ -7,7 +7,7 @@ use crate::importer::Importer;
 use crate::tied_nodes::TiedNodes;
 use crate::timeline::Timeline;
 use crate::{
-    base_motion, bodies, distributing, equations, harmonics, joints, links, loads, material_cards, mesh_text,
+    base_motion, bodies, contacts, distributing, equations, harmonics, joints, links, loads, material_cards, mesh_text,
     nodal_axes, output, parts, property_cards, spread_loads, stage_text, supports, surface_ties, temperatures, ties,
 };
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -61,6 +61,7 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
     joints::connectors(&mut build);
     ties::joints(&mut build);
     surface_ties::surface_ties(&mut build);
+    contacts::contacts(&mut build);
     equations::equations(&mut build);
     supports::supports(&mut build);
     loads::loads(&mut build);

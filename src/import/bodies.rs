@@ -1,10 +1,13 @@
 //! Rigid bodies and couplings: a body, and the nodes that are attached to it.
 
 use crate::build::Build;
+use crate::contacts;
 use crate::deck_text::{DeckTable, list, quoted};
-use crate::element_types::ElementUse;
+use crate::element_types::{ElementUse, SHAPE};
+use crate::part_piece::PartPiece;
 use crate::file_content::{PropertyOf, RigidCard, StepCard, StepProcedure};
 use crate::scopes::NamedTarget;
+use crate::surfaces;
 use base::math::{Mat3, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -80,23 +83,72 @@ fn nodes_of(build: &mut Build, card: &RigidCard) -> BodyNodes {
     let collect = |build: &mut Build, targets: &[NamedTarget]| -> BTreeSet<u64> {
         targets.iter().flat_map(|target| build.nodes(target)).collect()
     };
-    let (tied, pinned) = (collect(build, &card.tied), collect(build, &card.pinned));
+    let (mut tied, pinned) = (collect(build, &card.tied), collect(build, &card.pinned));
+    if let Some(surface) = &card.surface {
+        tied.extend(surfaces::nodes_of(build, surface).unwrap_or_default());
+    }
     let cells: BTreeSet<usize> = card.cells.iter().flat_map(|target| build.cells(target)).collect();
     let (mut of_parts, mut parts) = (BTreeSet::new(), Vec::new());
     for piece in build.pieces.iter().filter(|piece| piece.is_rigid && piece.cells.is_subset(&cells)) {
         of_parts.extend(piece.elements.iter().flat_map(|element| element.2.iter().copied()));
         parts.extend(piece.names.iter().cloned());
     }
+    let (faces, of_faces) = faces(build, card, &cells);
+    parts.extend(faces);
     if !parts.iter().all(|part| build.parts_of_bodies.insert(part.clone())) {
         build.im.refuse(card.line, "some of these elements are in another rigid body");
     }
-    let mut tied = tied;
     for &at in &cells {
         let cell = &build.mesh.cells[at];
         tied.extend(cell.nodes.iter().filter(|node| !of_parts.contains(node) && **node != 0));
     }
     tied.retain(|node| !of_parts.contains(node) && !pinned.contains(node));
+    tied.retain(|node| !of_faces.contains(node));
+    of_parts.extend(of_faces);
     BodyNodes { tied, pinned, own: of_parts, parts }
+}
+
+/// Adds rigid elements in contact as a shell next to nothing thick and heavy; returns its name and nodes.
+fn faces(build: &mut Build, card: &RigidCard, cells: &BTreeSet<usize>) -> (Option<String>, BTreeSet<u64>) {
+    let is_rigid = |at: &usize| build.im.scopes.types[build.mesh.cells[*at].kind].becomes == ElementUse::RigidFace;
+    let rigid: BTreeSet<usize> = cells.iter().copied().filter(is_rigid).collect();
+    let touched: BTreeSet<usize> = contacts::marks(build).into_iter().flatten().collect();
+    let of: BTreeSet<usize> =
+        rigid.intersection(&touched).copied().filter(|at| build.mesh.cells[*at].nodes.len() > 2).collect();
+    if let Some(&first) = rigid.difference(&of).next() {
+        let line = build.mesh.cells[first].line;
+        build.im.change(line, SHAPE);
+    }
+    if of.is_empty() {
+        return (None, BTreeSet::new());
+    }
+    let kind = |nodes: &[u64]| if nodes.len() == 3 { "S3" } else { "S4" };
+    let cell = |at: &usize| &build.mesh.cells[*at];
+    let elements: Vec<_> = of.iter().map(|at| (kind(&cell(at).nodes), cell(at).id, cell(at).nodes.clone())).collect();
+    let nodes = elements.iter().flat_map(|element| element.2.iter().copied()).collect();
+    let name = build.deck.unique(&format!("{}_faces", card.name));
+    let (size, material) = (LIGHT * build.mesh.size(), build.deck.unique(&format!("{}_rigid", card.name)));
+    let heaviest = build.pieces.iter().map(|piece| piece.density).fold(0.0, f64::max);
+    let table = DeckTable::named("materials", &material, card.line)
+        .text("model", "elastic")
+        .number("youngs_modulus", 1.0)
+        .number("poisson_ratio", 0.0);
+    build.deck.add(if heaviest > 0.0 { table.number("density", heaviest) } else { table });
+    let table = DeckTable::new("shells", card.line).text("group", &name).number("thickness", size);
+    build.deck.add(table.text("material", &material));
+    build.pieces.push(PartPiece {
+        name: name.clone(),
+        names: vec![name.clone()],
+        is_beam: false,
+        is_bar: false,
+        elements,
+        cells: of,
+        size,
+        density: 0.0,
+        is_rigid: true,
+        sides: None,
+    });
+    (Some(name), nodes)
 }
 
 fn body(build: &mut Build, card: &RigidCard, masses: &BTreeMap<u64, PointMass>) {
@@ -128,7 +180,8 @@ fn body(build: &mut Build, card: &RigidCard, masses: &BTreeMap<u64, PointMass>) 
         if nodes.is_empty() {
             continue;
         }
-        let targets: Vec<NamedTarget> = card.tied.iter().chain(&card.pinned).cloned().collect();
+        let of_surface = card.surface.iter().flat_map(|surface| surfaces::node_sets(build, surface));
+        let targets: Vec<NamedTarget> = card.tied.iter().chain(&card.pinned).cloned().chain(of_surface).collect();
         let names = build.names(&nodes, &targets, &format!("{name}_nodes"));
         let table = DeckTable::new("attachments", card.line).text("body", &name).names("nodes", &names);
         build.deck.add(match dofs {

@@ -3,7 +3,7 @@
 use crate::file_content::{DistributingCard, EquationCard, OpenCoupling, PointsCard, RigidCard, TieCard};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
-use crate::scopes::{Members, NamedTarget};
+use crate::scopes::NamedTarget;
 use base::text_file::cards::{Data, name_in};
 use std::collections::BTreeMap;
 
@@ -20,6 +20,7 @@ pub fn rigid_body(im: &mut Importer, block: &KeywordBlock) {
         line,
         name: first.unwrap_or("body").to_owned(),
         rotations: node("ROTNODE"),
+        surface: None,
         tied: sets(&["NSET", "TIENSET"]),
         pinned: sets(&["PINNSET"]),
         cells: sets(&["ELSET"]),
@@ -30,54 +31,35 @@ pub fn rigid_body(im: &mut Importer, block: &KeywordBlock) {
     im.constraints.rigid.push(card);
 }
 
-/// The sets of nodes of a surface; refuses other names.
-fn surface(im: &mut Importer, name: &str, line: usize) -> Option<Vec<NamedTarget>> {
-    let target = im.set_target(name, line);
-    let found = im.scopes.surface(&target);
-    let of_nodes = |set: &NamedTarget| im.scopes.members(set, Members::Nodes).is_some();
-    match found {
-        Some(lines) if lines.iter().all(|(set, side)| side == "NODE" && of_nodes(set)) => {
-            Some(lines.into_iter().map(|(set, _)| set).collect())
-        }
-        Some(_) => {
-            im.refuse(line, "the surface of a coupling is a set of nodes here: give *SURFACE, TYPE=NODE");
-            None
-        }
-        None if of_nodes(&target) => Some(vec![target]),
-        None => {
-            im.refuse(line, &format!("no surface before this line is named `{name}`"));
-            None
-        }
-    }
-}
-
 /// `*COUPLING`.
 pub fn coupling(im: &mut Importer, block: &KeywordBlock) {
     let (keyword, line) = (&block.keyword, block.keyword.line);
     im.constraints.open = None;
-    if keyword.has("ORIENTATION") {
-        return im.refuse(line, "the axes of a coupling are the global ones in rdsolve");
-    }
     let (Some(reference), Some(surface_name)) = (keyword.value("REFNODE"), keyword.value("SURFACE")) else {
         return im.refuse(line, "*COUPLING needs REF NODE= and SURFACE=");
     };
     let reference = NamedTarget { is_set: false, ..im.set_target(reference, line) };
-    let Some(nodes) = surface(im, surface_name, line) else { return };
     let name = keyword.value("CONSTRAINTNAME").unwrap_or(surface_name).to_owned();
-    im.constraints.open = Some(OpenCoupling { line, name, reference, nodes });
+    let surface = im.set_target(surface_name, line);
+    im.constraints.open =
+        Some(OpenCoupling { line, name, reference, surface, is_turned: keyword.has("ORIENTATION") });
 }
 
 /// `*KINEMATIC` below a coupling.
 pub fn kinematic(im: &mut Importer, block: &KeywordBlock) {
     let Some(open) = im.constraints.open.take() else { return };
     let degrees = degrees(im, block, 0);
-    let OpenCoupling { line, name, reference, nodes } = open;
+    let OpenCoupling { line, name, reference, surface, is_turned } = open;
+    if is_turned && !degrees.is_empty() {
+        return im.refuse(line, "the axes of a coupling are the global ones in rdsolve");
+    }
     let card = RigidCard {
         line,
         name,
         reference,
         rotations: None,
-        tied: nodes,
+        tied: Vec::new(),
+        surface: Some(surface),
         pinned: Vec::new(),
         cells: Vec::new(),
         degrees,
@@ -94,13 +76,16 @@ pub fn distributing(im: &mut Importer, block: &KeywordBlock) {
         return im.refuse(line, "the nodes of a distributing coupling have the same weight here");
     }
     let degrees = degrees(im, block, 0);
-    let OpenCoupling { line, reference, nodes, .. } = open;
-    let nodes = nodes.into_iter().map(|set| (set, 1.0)).collect();
+    let OpenCoupling { line, reference, surface, is_turned, .. } = open;
+    if is_turned && !degrees.is_empty() {
+        return im.refuse(line, "the axes of a coupling are the global ones in rdsolve");
+    }
     im.constraints.distributing.push(DistributingCard {
         line,
         reference: Some(reference),
         cells: None,
-        nodes,
+        surface: Some(surface),
+        nodes: Vec::new(),
         degrees,
     });
 }
@@ -114,7 +99,14 @@ pub fn distributing_coupling(im: &mut Importer, block: &KeywordBlock) {
     let cells = Some(im.set_target(set, line));
     let lines = block.data.iter().filter(|data| data.filled() > 0);
     let nodes = lines.map(|data| (im.target(&data.words[0]), im.number_at(data, 1).unwrap_or(1.0))).collect();
-    im.constraints.distributing.push(DistributingCard { line, reference: None, cells, nodes, degrees: Vec::new() });
+    im.constraints.distributing.push(DistributingCard {
+        line,
+        reference: None,
+        cells,
+        surface: None,
+        nodes,
+        degrees: Vec::new(),
+    });
 }
 
 /// `*KINEMATIC COUPLING` of older files.
@@ -151,6 +143,7 @@ pub fn kinematic_coupling(im: &mut Importer, block: &KeywordBlock) {
         reference,
         rotations: None,
         tied,
+        surface: None,
         pinned,
         cells,
         degrees,

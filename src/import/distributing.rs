@@ -2,6 +2,7 @@
 
 use crate::build::Build;
 use crate::file_content::DistributingCard;
+use crate::surfaces;
 use crate::tied_nodes::DistributedNodes;
 use base::math::{Mat3, Vec3};
 use std::collections::BTreeMap;
@@ -14,6 +15,10 @@ pub fn couplings(build: &mut Build) {
     for card in build.im.constraints.distributing.clone() {
         let Some(reference) = reference(build, &card) else { continue };
         let mut weights: BTreeMap<u64, f64> = BTreeMap::new();
+        if let Some(surface) = &card.surface {
+            let nodes = surfaces::nodes_of(build, surface).unwrap_or_default();
+            weights.extend(nodes.into_iter().map(|node| (node, 1.0)));
+        }
         for (target, weight) in &card.nodes {
             weights.extend(build.nodes(target).into_iter().map(|node| (node, *weight)));
         }

@@ -11,7 +11,7 @@ pub enum ElementUse {
     Truss,
     /// Shells.
     Face,
-    /// Nodes of a rigid body.
+    /// Nodes of a rigid body, and its faces where these are in contact.
     RigidFace,
     /// A point mass.
     PointMass,
@@ -55,7 +55,8 @@ pub struct ElementType {
 }
 
 const FLEXIBLE: &str = "beams of this type bend without shear; here they deform in shear";
-const SHAPE: &str = "the shape of rigid elements is not used, their nodes go with the body";
+/// How rigid elements without contact differ.
+pub const SHAPE: &str = "the shape of rigid elements is not used, their nodes go with the body";
 
 /// The types: names, number of nodes, difference.
 const TYPES: &[(ElementUse, usize, &str, &str)] = &[
@@ -69,9 +70,9 @@ const TYPES: &[(ElementUse, usize, &str, &str)] = &[
     (ElementUse::Face, 6, "S6 STRI65", ""),
     (ElementUse::Face, 8, "S8 S8R S8R5", ""),
     (ElementUse::Face, 9, "S9R5", ""),
-    (ElementUse::RigidFace, 3, "R3D3", SHAPE),
-    (ElementUse::RigidFace, 4, "R3D4", SHAPE),
-    (ElementUse::RigidFace, 2, "RB3D2 RB2D2 R2D2", SHAPE),
+    (ElementUse::RigidFace, 3, "R3D3", ""),
+    (ElementUse::RigidFace, 4, "R3D4", ""),
+    (ElementUse::RigidFace, 2, "RB3D2 RB2D2 R2D2", ""),
     (ElementUse::PointMass, 1, "MASS", ""),
     (ElementUse::PointInertia, 1, "ROTARYI", ""),
     (ElementUse::GroundSpring, 1, "SPRING1", ""),

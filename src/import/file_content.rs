@@ -47,13 +47,6 @@ impl MaterialCards {
     pub fn find(&self, name: &str) -> Option<&MaterialCard> {
         self.list.iter().rfind(|material| material.name.to_lowercase() == name.to_lowercase())
     }
-
-    /// The factors of Rayleigh damping that all materials with any share; `Err`: the line of one that differs.
-    pub fn damping(&self) -> Result<Option<[f64; 2]>, usize> {
-        let mut damped = self.list.iter().filter(|material| material.elastic.is_some());
-        let first = damped.next().and_then(|material| material.damping);
-        damped.find(|material| material.damping != first).map_or(Ok(first), |other| Err(other.line))
-    }
 }
 
 /// A section as the file has it.
@@ -156,6 +149,8 @@ pub struct RigidCard {
     pub rotations: Option<NamedTarget>,
     /// Nodes that go with it in all directions.
     pub tied: Vec<NamedTarget>,
+    /// The surface of a coupling, whose nodes go with it too.
+    pub surface: Option<NamedTarget>,
     /// Nodes whose translations alone go with it.
     pub pinned: Vec<NamedTarget>,
     /// Elements that are part of it.
@@ -195,7 +190,9 @@ pub struct DistributingCard {
     pub reference: Option<NamedTarget>,
     /// ... or the set with one element there.
     pub cells: Option<NamedTarget>,
-    /// Its nodes and their weights.
+    /// The surface whose nodes have the same weight, ...
+    pub surface: Option<NamedTarget>,
+    /// ... or nodes and their weights.
     pub nodes: Vec<(NamedTarget, f64)>,
     /// Degrees of freedom of the reference node, from 0 to 5; all where it is empty.
     pub degrees: Vec<usize>,
@@ -210,8 +207,10 @@ pub struct OpenCoupling {
     pub name: String,
     /// The reference node.
     pub reference: NamedTarget,
-    /// Its nodes.
-    pub nodes: Vec<NamedTarget>,
+    /// Its surface.
+    pub surface: NamedTarget,
+    /// True where its degrees of freedom are along other axes than the global ones.
+    pub is_turned: bool,
 }
 
 /// All constraints of a file.
@@ -337,6 +336,16 @@ impl AmplitudeCard {
         }
     }
 
+    /// The same with times from here on.
+    pub fn seen_from(&self, now: f64) -> AmplitudeCard {
+        let mut card = self.clone();
+        card.points.iter_mut().for_each(|point| point[0] -= now);
+        if let Some([.., start]) = &mut card.sine {
+            *start -= now;
+        }
+        card
+    }
+
     /// The corners in time of a step of this length, from 0 to its end.
     pub fn corners(&self, duration: f64) -> Vec<f64> {
         let mut times: Vec<f64> = match self.sine {
@@ -459,8 +468,17 @@ pub struct SpreadLine {
     pub values: Vec<f64>,
     /// True for the imaginary part of a steady motion.
     pub is_imaginary: bool,
+    /// True where it keeps its direction at large displacements.
+    pub is_fixed: bool,
     /// The name of an amplitude.
     pub amplitude: Option<String>,
+}
+
+impl SpreadLine {
+    /// True for a load along edges of shells.
+    pub fn is_on_edges(&self) -> bool {
+        self.kind.starts_with("ED")
+    }
 }
 
 /// The output requested by a step.

@@ -250,7 +250,7 @@ fn check_damping(im: &mut Importer, at: usize) {
 }
 
 /// True where all steps that have inertia are steady motions by modes, which material damping does not act on.
-pub fn goes_by_modes(im: &Importer) -> bool {
+fn goes_by_modes(im: &Importer) -> bool {
     let of = |step: &StepCard| match &step.procedure {
         Some((StepProcedure::Response(card), _)) => Some(!card.is_direct),
         Some((StepProcedure::Dynamic { .. }, _)) => Some(false),
@@ -260,10 +260,9 @@ pub fn goes_by_modes(im: &Importer) -> bool {
     moving.peek().is_some() && moving.all(|by_modes| by_modes)
 }
 
-/// Alpha and beta of all steps that have inertia, and their line; `None` where these do not damp modes.
-pub fn rayleigh(im: &mut Importer) -> Option<([f64; 2], usize)> {
-    let moving: Vec<_> = im
-        .steps
+/// Alpha and beta of each step that has inertia, and their line.
+fn factors(im: &Importer) -> Vec<Option<([f64; 2], usize)>> {
+    im.steps
         .list
         .iter()
         .filter(|step| matches!(step.procedure, Some((StepProcedure::Dynamic { .. } | StepProcedure::Response(_), _))))
@@ -271,7 +270,17 @@ pub fn rayleigh(im: &mut Importer) -> Option<([f64; 2], usize)> {
             Some((DampingOfModes::Rayleigh(values), line, _)) => Some((values, line)),
             _ => None,
         })
-        .collect();
+        .collect()
+}
+
+/// True where modes have damping of their own, and materials none.
+pub fn replaces_damping(im: &Importer) -> bool {
+    goes_by_modes(im) || factors(im).iter().any(Option::is_some)
+}
+
+/// Alpha and beta of all steps that have inertia, and their line; `None` where these do not damp modes.
+pub fn rayleigh(im: &mut Importer) -> Option<([f64; 2], usize)> {
+    let moving = factors(im);
     let first = moving.iter().flatten().next().copied()?;
     if moving.iter().any(|other| other.map(|(values, _)| values) != Some(first.0)) {
         im.refuse(first.1, "[damping] holds for all steps: give each step a file");

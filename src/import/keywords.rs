@@ -3,7 +3,7 @@
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::{
-    amplitude_cards, base_motion, connector_cards, constraint_cards, harmonics, material_cards, mesh_cards,
+    amplitude_cards, base_motion, connector_cards, constraint_cards, contact_cards, harmonics, material_cards, mesh_cards,
     mesh_makers, nodal_axes, property_cards, section_cards, step_cards, temperatures,
 };
 use std::fmt::Write;
@@ -54,7 +54,7 @@ const HEAT: &str = "rdsolve computes no temperatures; give them by *TEMPERATURE"
 const FLUID: &str = "rdsolve computes no fluids";
 const FIELDS: &str = "rdsolve computes no electric or magnetic fields";
 const LAW: &str = "rdsolve has elastic, plastic and viscoplastic materials alone";
-const CONTACT: &str = "contact is not translated; add [[contacts]] to the deck";
+const CONTACT: &str = "contact is translated by *CONTACT PAIR alone; give pairs, or add [[contacts]] to the deck";
 const CYCLIC: &str = "rdsolve has no cyclic symmetry";
 const PIECES: &str = "substructures and submodels are not translated; `[[superelements]]` take their matrices";
 const MESH: &str = "makes nodes, elements or numbers; write the mesh as one flat file";
@@ -158,6 +158,25 @@ pub const KEYWORDS: &[KeywordRow] = &[
     read("KINEMATIC COUPLING", "REFNODE", constraint_cards::kinematic_coupling, "a body, [[attachments]] dofs"),
     read("MPC", "", constraint_cards::points, "nodes that are one, [[joints]], [[equations]] or a body"),
     read("EQUATION", "", constraint_cards::equations, "nodes that are one, [[joints]], [[supports]] or [[equations]]"),
+    read(
+        "CONTACT PAIR",
+        "INTERACTION TYPE SMALLSLIDING ADJUST TIED NOTHICKNESS SUPPLEMENTARYCONSTRAINTS TRACKING EXTENSIONZONE HCRIT SMOOTH WEIGHT CPSET MECHANICALCONSTRAINT",
+        contact_cards::pair,
+        "[[contacts]]",
+    ),
+    read("SURFACE INTERACTION", "NAME PADTHICKNESS", contact_cards::interaction, "what acts in [[contacts]]"),
+    read(
+        "SURFACE BEHAVIOR",
+        "PRESSUREOVERCLOSURE AUGMENTEDLAGRANGE PENALTY DIRECT NOSEPARATION",
+        contact_cards::behavior,
+        "[[contacts]] stiffness, which rdsolve chooses",
+    ),
+    read(
+        "FRICTION",
+        "SLIPTOLERANCE ELASTICSLIP LAGRANGE ROUGH TAUMAX EXPONENTIALDECAY",
+        contact_cards::friction,
+        "[[contacts]] friction",
+    ),
     read("CONNECTOR SECTION", "ELSET BEHAVIOR", connector_cards::section, "[[joints]] or [[links]]"),
     read("CONNECTOR BEHAVIOR", "NAME", connector_cards::behavior, "what acts in joints and bushings"),
     read("CONNECTOR ELASTICITY", "COMPONENT", connector_cards::elasticity, "stiffness of joints and bushings"),
@@ -223,11 +242,16 @@ pub const KEYWORDS: &[KeywordRow] = &[
     ),
     read(
         "DLOAD",
-        "OP AMPLITUDE LOADCASE REAL IMAGINARY",
+        "OP AMPLITUDE FOLLOWER CONSTANTRESULTANT LOADCASE REAL IMAGINARY",
         step_cards::element_loads,
         "[[loads]] by length or area, or gravity",
     ),
-    read("DSLOAD", "OP AMPLITUDE LOADCASE REAL IMAGINARY", step_cards::surface_loads, "[[loads]] pressure"),
+    read(
+        "DSLOAD",
+        "OP AMPLITUDE FOLLOWER CONSTANTRESULTANT LOADCASE REAL IMAGINARY",
+        step_cards::surface_loads,
+        "[[loads]] pressure, force_per_area, or forces along edges",
+    ),
     read("NODE PRINT", "NSET FREQUENCY TOTALS GLOBAL TIMEPOINTS OUTPUT SUMMARY", step_cards::node_output, "[output]"),
     read(
         "NODE FILE",
@@ -293,17 +317,13 @@ pub const KEYWORDS: &[KeywordRow] = &[
     refuse("TRANSVERSE SHEAR STIFFNESS", "shear stiffness follows from the section; give shear_areas in the deck"),
     refuse("TRANSVERSE SHEAR", "shear stiffness follows from the section; give shear_areas in the deck"),
     refuse("HOURGLASS STIFFNESS", "elements of rdsolve have no hourglass modes"),
-    refuse("CONTACT PAIR", CONTACT),
     refuse("CONTACT", CONTACT),
     refuse("CONTACT INCLUSIONS", CONTACT),
     refuse("CONTACT PROPERTY ASSIGNMENT", CONTACT),
     refuse("CONTACT DAMPING", CONTACT),
-    refuse("SURFACE INTERACTION", CONTACT),
-    refuse("SURFACE BEHAVIOR", CONTACT),
     refuse("CHANGE FRICTION", CONTACT),
     refuse("CHANGE SURFACE BEHAVIOR", CONTACT),
     refuse("CLEARANCE", CONTACT),
-    refuse("FRICTION", CONTACT),
     refuse("MODEL CHANGE", "elements that come or go are not translated; use `stages` of links, joints and supports"),
     refuse(
         "PRE-TENSION SECTION",

@@ -72,7 +72,8 @@ impl Build<'_, '_, '_> {
     /// Times and values over all general steps.
     fn points(&mut self, history: &[InStep]) -> Vec<[f64; 2]> {
         let (mut points, mut value) = (vec![[0.0, 0.0]], 0.0);
-        let (mut refused, mut drawn, steps) = (Vec::new(), Vec::new(), self.timeline.general.len());
+        let (mut refused, mut drawn) = (Vec::new(), Vec::new());
+        let mut followed: Option<(AmplitudeCard, f64)> = None;
         let mut add = |t: f64, value: f64| match points.last_mut() {
             Some(last) if t <= last[0] => last[1] = value,
             _ => points.push([t, value]),
@@ -82,22 +83,28 @@ impl Build<'_, '_, '_> {
             let (start, end) = (stage.start, stage.start + stage.duration);
             let jumps = self.im.steps.list[stage.step].jumps.unwrap_or(stage.is_dynamic);
             let soon = if start > 0.0 { start + JUMP * stage.duration } else { 0.0 };
-            match state {
-                InStep::Holds => {}
-                InStep::Begins(GivenValue { value: to, amplitude: Some(name), line }) => {
-                    let card = self.im.amplitudes.iter().rfind(|card| card.name.to_lowercase() == name.to_lowercase());
-                    match card {
-                        None => refused.push((*line, format!("no amplitude is named `{name}`"))),
-                        Some(card) => refused.extend(unsaid(card, stage, steps).map(|why| (*line, why.to_owned()))),
-                    }
-                    let Some(card) = card else { continue };
-                    drawn.extend(card.sine.map(|_| *line));
+            if let InStep::Begins(GivenValue { value: to, amplitude: Some(name), line }) = state {
+                let card = self.im.amplitudes.iter().rfind(|card| card.name.to_lowercase() == name.to_lowercase());
+                match card {
+                    None => refused.push((*line, format!("no amplitude is named `{name}`"))),
+                    Some(card) => refused.extend(unsaid(card, stage).map(|why| (*line, why.to_owned()))),
+                }
+                drawn.extend(card.and_then(|card| card.sine).map(|_| *line));
+                followed = card.map(|card| (card.clone(), *to));
+            } else if *state != InStep::Holds || followed.as_ref().is_some_and(|(card, _)| !card.is_total) {
+                followed = None;
+            }
+            match (state, &followed) {
+                // Values by the time of the run go on in later steps.
+                (_, Some((card, to))) => {
+                    let card = if card.is_total { card.seen_from(start) } else { card.clone() };
                     for t in card.corners(stage.duration) {
                         value = to * card.at(t);
                         add(if t == 0.0 { soon } else { start + t }, value);
                     }
                 }
-                other => {
+                (InStep::Holds, None) => {}
+                (other, None) => {
                     let to = if let InStep::Begins(given) = other { given.value } else { 0.0 };
                     if to != value && jumps {
                         add(start, value);
@@ -193,15 +200,11 @@ impl Build<'_, '_, '_> {
 }
 
 /// Why a table over all steps cannot hold an amplitude of one of them.
-fn unsaid(card: &AmplitudeCard, stage: &StageOfStep, steps: usize) -> Option<&'static str> {
+fn unsaid(card: &AmplitudeCard, stage: &StageOfStep) -> Option<&'static str> {
     let periods = card.sine.map_or(0.0, |[frequency, ..]| frequency * stage.duration);
-    if card.is_total && steps > 1 {
-        Some("an amplitude with TOTAL TIME is not translated where the file has several steps")
-    } else if periods > MOST_PERIODS {
-        Some("a periodic amplitude has too many periods here for a table of points: give it a file of one step")
-    } else {
-        None
-    }
+    (periods > MOST_PERIODS).then_some(
+        "a periodic amplitude has too many periods here for a table of points: give it a file of one step",
+    )
 }
 
 /// The line of the procedure of a step.

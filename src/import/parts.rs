@@ -1,10 +1,12 @@
 //! Beams, bars and shells: elements with one section, cut where loads or rigid bodies end.
 
 use crate::build::Build;
-use crate::deck_text::{DeckTable, list, number, quoted, vector};
+use crate::deck_text::{DeckTable, inline, list, number, quoted, vector};
+use crate::contacts;
 use crate::dialect::Dialect;
 use crate::element_types::ElementUse;
 use crate::file_content::{SectionCard, SectionOf, SectionValue};
+use crate::harmonics;
 use crate::material_cards;
 use crate::nodal_numbers::by_nodes;
 use crate::part_piece::PartPiece;
@@ -123,7 +125,7 @@ fn assigned(build: &mut Build) -> HashMap<usize, usize> {
 fn marks(build: &mut Build) -> Vec<BTreeSet<usize>> {
     let steps = build.im.steps.list.iter().chain([&build.im.steps.before]);
     let mut targets: Vec<NamedTarget> = Vec::new();
-    for line in steps.flat_map(|step| &step.spread).filter(|line| !line.target.name.is_empty()) {
+    for line in steps.flat_map(|step| &step.spread).filter(|line| !line.target.name.is_empty() && !line.is_on_edges()) {
         match build.im.scopes.surface(&line.target) {
             Some(lines) if line.is_surface => targets.extend(lines.into_iter().map(|(set, _)| set)),
             _ => targets.push(line.target.clone()),
@@ -134,6 +136,7 @@ fn marks(build: &mut Build) -> Vec<BTreeSet<usize>> {
     targets.retain(|target| seen.insert((target.scope, target.name.to_lowercase())));
     let found = targets.iter().filter_map(|target| build.mesh.cell_indices(&build.im.scopes, target));
     let mut marks: Vec<BTreeSet<usize>> = found.map(|cells| cells.into_iter().collect()).collect();
+    marks.extend(contacts::marks(build));
     for target in temperatures::targets(build.im).iter().filter(|_| build.im.is_heated()) {
         let nodes: BTreeSet<u64> =
             build.mesh.node_ids(&build.im.scopes, target).unwrap_or_default().into_iter().collect();
@@ -341,6 +344,7 @@ fn beam(
         .text("material", material)
         .value("order", if key.shape == 1 { "2" } else { "1" })
         .value("orientation", &*key.axis);
+    let table = damped(build, card, table);
     build.deck.add(table);
 }
 
@@ -376,7 +380,19 @@ fn beams_beside(
             .numbers("offset_start", arm.as_slice())
             .numbers("offset_end", arm.as_slice());
         piece.names.push(name);
+        let table = damped(build, card, table);
         build.deck.add(table);
+    }
+}
+
+/// Adds the damping of the material, unless modes have their own.
+fn damped(build: &Build, card: &SectionCard, table: DeckTable) -> DeckTable {
+    let of = build.im.materials.find(&card.material).and_then(|material| material.damping);
+    match of.filter(|_| !harmonics::replaces_damping(build.im)) {
+        Some([alpha, beta]) => {
+            table.value("damping", inline(&[("alpha", number(alpha)), ("beta", number(beta))]))
+        }
+        None => table,
     }
 }
 
@@ -484,6 +500,7 @@ fn shell(
             None => build.im.refuse(card.line, &format!("no orientation is named `{name}`")),
         }
     }
+    let table = damped(build, card, table);
     build.deck.add(table);
 }
 
@@ -499,6 +516,7 @@ fn bars(build: &mut Build, card: &SectionCard, piece: &mut PartPiece, material: 
             .text("material", material)
             .number("area", piece.size);
         let table = if is_slack { table.value("tension_only", "true") } else { table };
+        let table = damped(build, card, table);
         piece.names.push(name);
         build.deck.add(table);
     }

@@ -3,6 +3,7 @@
 use crate::build::Build;
 use crate::deck_text::{DeckTable, inline, number, vector};
 use crate::dialect::Dialect;
+use crate::edge_loads;
 use crate::element_types::ElementUse;
 use crate::file_content::SpreadLine;
 use crate::loads::{in_time, lines_of, refuse_two_laws};
@@ -104,6 +105,9 @@ fn one(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history): (&
     if line.kind == "CENTRIF" && !line.is_surface {
         return rotation(build, line, law, (lines, history));
     }
+    if line.is_on_edges() {
+        return edge_loads::edges(build, line, law, lines);
+    }
     if line.is_surface {
         return surface(build, line, law, lines);
     }
@@ -155,9 +159,6 @@ fn reason(kind: &str) -> String {
         }
         "CENT" => "CENT is the density times the square of a speed: give CENTRIF, without the density".to_owned(),
         "NEWTON" => "bodies do not attract each other in rdsolve".to_owned(),
-        _ if kind.starts_with("ED") => {
-            format!("loads of kind {kind} act on edges: give a force per length at a set of nodes")
-        }
         _ => format!("loads of kind {kind} are not translated"),
     }
 }
@@ -196,20 +197,44 @@ fn surface(build: &mut Build, line: &SpreadLine, law: &TimeLaw, lines: &[usize])
         return build.im.refuse(line.line, &format!("no surface is named `{}`", line.target.name));
     };
     for (set, side) in found {
-        let sense = match (&side[..], &line.kind[..]) {
-            ("SPOS" | "", "P") => 1.0,
-            ("SNEG", "P") => -1.0,
-            _ => {
-                let about =
-                    format!("of loads on surfaces P on SPOS or SNEG is translated, not {} on {side}", line.kind);
-                return build.im.refuse(line.line, &about);
-            }
-        };
+        let is_face = ["SPOS", "SNEG", ""].contains(&&side[..]);
+        if !is_face || !["P", "TRVEC"].contains(&&line.kind[..]) {
+            let about = format!(
+                "of loads on surfaces P and TRVEC on SPOS or SNEG are translated, and loads along edges, not {} on {side}",
+                line.kind
+            );
+            return build.im.refuse(line.line, &about);
+        }
+        let sense = if side == "SNEG" { -1.0 } else { 1.0 };
         for piece in pieces(build, &set, line.line) {
             let table = DeckTable::new("loads", 0).with_lines(lines.iter().copied()).names("part", &piece.names);
-            let table = pressure(build, table, sense * law.scale);
+            let table = match line.kind == "P" {
+                true => pressure(build, table, sense * law.scale),
+                false => match traction(build, line) {
+                    Some(direction) => table.numbers("force_per_area", (direction * law.scale).as_slice()),
+                    None => return,
+                },
+            };
             build.deck.add(in_time(table, Some(law)));
         }
+    }
+}
+
+/// The direction of a traction, which keeps it; refuses one without.
+fn traction(build: &mut Build, line: &SpreadLine) -> Option<Vec3> {
+    let of = |at: usize| line.values.get(at).copied().unwrap_or(0.0);
+    let direction = Vec3::new(of(1), of(2), of(3)).try_normalize(0.0);
+    if direction.is_none() {
+        build.im.refuse(line.line, "TRVEC needs a direction behind its magnitude");
+    }
+    keeps_direction(build, line);
+    direction
+}
+
+/// Tells that a load keeps its direction where the other program turns it.
+pub fn keeps_direction(build: &mut Build, line: &SpreadLine) {
+    if !line.is_fixed && build.im.steps.list.iter().any(|step| step.is_nonlinear) {
+        build.im.change(line.line, "this load keeps its direction; without FOLLOWER=NO the other program turns it");
     }
 }
 

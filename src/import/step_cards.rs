@@ -262,6 +262,7 @@ fn spread(im: &mut Importer, block: &KeywordBlock, is_surface: bool) {
     }
     let amplitude = block.keyword.value("AMPLITUDE").map(str::to_owned);
     let is_imaginary = is_imaginary(&block.keyword);
+    let is_fixed = block.keyword.value("FOLLOWER").is_some_and(|word| word.eq_ignore_ascii_case("NO"));
     for data in block.data.iter().filter(|data| data.filled() > 0) {
         let Some(kind) = data.words.get(1).map(name_in) else {
             im.refuse(data.line, "this line needs the kind of the load");
@@ -269,7 +270,7 @@ fn spread(im: &mut Importer, block: &KeywordBlock, is_surface: bool) {
         };
         let values = (2..data.filled()).map(|at| im.number_at(data, at).unwrap_or(0.0)).collect();
         let (target, amplitude, kind) = (im.target(&data.words[0]), amplitude.clone(), kind.to_ascii_uppercase());
-        let load = SpreadLine { line: data.line, target, is_surface, kind, values, is_imaginary, amplitude };
+        let load = SpreadLine { line: data.line, target, is_surface, kind, values, is_imaginary, is_fixed, amplitude };
         im.steps.at_hand().spread.push(load);
     }
 }
@@ -286,6 +287,13 @@ pub fn initial_conditions(im: &mut Importer, block: &KeywordBlock) {
             }
         }
         "TEMPERATURE" => temperatures::initial(im, block),
+        "DISPLACEMENT" => {
+            let moved = block.data.iter().any(|data| im.number_at(data, 2).is_some_and(|value| value != 0.0));
+            match moved {
+                true => im.refuse(line, "displacements at the start are not translated: move the nodes of the mesh"),
+                false => im.ignore(line, "all displacements at the start are zero"),
+            }
+        }
         kind => im.refuse(line, &format!("initial conditions of TYPE={kind} are not translated")),
     }
 }

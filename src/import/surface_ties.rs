@@ -3,9 +3,10 @@
 use crate::build::Build;
 use crate::deck_text::DeckTable;
 use crate::file_content::TieCard;
-use crate::scopes::{Members, NamedTarget};
+use crate::scopes::NamedTarget;
+use crate::surfaces::{lines, nodes_of};
 use base::math::Vec3;
-use base::math::curved_faces::{corners, middle_of_eight};
+use base::math::curved_faces::middle_of_eight;
 use base::math::face_foot::foot;
 use std::collections::BTreeSet;
 
@@ -71,50 +72,6 @@ fn tie(build: &mut Build, card: &TieCard, nodes: BTreeSet<u64>, base: Base, know
     build.deck.add(if card.is_hinge { table.text("dofs", "translations") } else { table });
 }
 
-/// The nodes of a surface: those of a set, of elements, or of their edges.
-fn nodes_of(build: &mut Build, surface: &NamedTarget) -> Option<BTreeSet<u64>> {
-    let mut nodes = BTreeSet::new();
-    for (set, side) in lines(build, surface)? {
-        let set = NamedTarget { line: surface.line, ..set };
-        if side == "NODE" {
-            nodes.extend(build.nodes(&set));
-            continue;
-        }
-        for at in build.cells(&set) {
-            let all = &build.mesh.cells[at].nodes;
-            nodes.extend(match edge(&side, all.len()) {
-                Some(edge) => edge.into_iter().filter_map(|k| all.get(k).copied()).collect(),
-                None => all.clone(),
-            });
-        }
-    }
-    Some(nodes)
-}
-
-/// The places, among its nodes, of those of an edge of a shell: E1 of Abaqus, S3 of CalculiX for the first one.
-fn edge(side: &str, nodes: usize) -> Option<Vec<usize>> {
-    let number: usize = side.get(1..)?.parse().ok()?;
-    let n = corners(nodes);
-    let first = match side.as_bytes()[0] {
-        b'E' => number.checked_sub(1)?,
-        _ => number.checked_sub(3)?,
-    };
-    let middle = (nodes > n).then_some(n + first);
-    (first < n).then(|| [first, (first + 1) % n].into_iter().chain(middle).collect())
-}
-
-/// Sets of a surface with their sides; a set of nodes is a surface too.
-fn lines(build: &mut Build, surface: &NamedTarget) -> Option<Vec<(NamedTarget, String)>> {
-    let found = build.im.scopes.surface(surface);
-    let is_set = build.im.scopes.members(surface, Members::Nodes).is_some();
-    let lines =
-        found.or_else(|| is_set.then(|| vec![(NamedTarget { is_set: true, ..surface.clone() }, "NODE".to_owned())]));
-    if lines.is_none() {
-        build.im.refuse(surface.line, &format!("no surface is named `{}`", surface.name));
-    }
-    lines
-}
-
 /// The faces that nodes are tied to.
 struct Base {
     faces: Vec<Face>,
@@ -137,7 +94,7 @@ impl Base {
         let mut cells = BTreeSet::new();
         for (set, side) in lines(build, surface)? {
             if side != "NODE" {
-                cells.extend(build.cells(&NamedTarget { line: surface.line, ..set }));
+                cells.extend(build.cells(&set));
             }
         }
         let (mut base, mut size) = (Base { faces: Vec::new(), usual: 0.0 }, 0.0f64);

@@ -42,6 +42,7 @@ pub fn merge(build: &mut Build) {
                     name: format!("beam_{}", card.nodes[1].name),
                     reference: card.nodes[1].clone(),
                     rotations: None,
+                    surface: None,
                     tied: vec![card.nodes[0].clone()],
                     pinned: Vec::new(),
                     cells: Vec::new(),

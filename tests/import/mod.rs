@@ -11,6 +11,7 @@ mod round_trip;
 mod rows;
 mod silent;
 mod steady_motions;
+mod surfaces;
 mod translations;
 mod values;
 

@@ -238,7 +238,6 @@ fn loads_on_parts() {
     let beside = "*ELEMENT, TYPE=MASS, ELSET=w\n5, 3\n*MASS, ELSET=w\n3.\n*BOUNDARY";
     let part = format!("[[loads]]\npart = \"skin\"\n{wanted}");
     has(SHELL, &[("*CLOAD\n3, 3, 5.", spun), ("*BOUNDARY", beside)], None, &part);
-    refuses(SHELL, &load("*DLOAD\nskin, EDNOR1, 5."), "act on edges");
     let load = |line: &'static str| [("*CLOAD\n2, 3, 5.", line)];
     has(BEAM, &load("*DLOAD\nrod, PZ, 5."), None, "part = \"rod\"\nforce_per_length = [0.0, 0.0, 5.0]\n");
     refuses(BEAM, &load("*DLOAD\nrod, P2, 5."), "say --from abaqus or --from calculix");
@@ -597,12 +596,13 @@ fn velocities_damping_and_output() {
         None,
         "[[initial]]\nat = \"tip\"\nvelocity = [0.0, 0.0, -2.0]\n",
     );
-    has(
-        BEAM,
-        &[("*DENSITY", "*DAMPING, ALPHA=0.1, BETA=0.2\n*DENSITY")],
-        None,
-        "[damping]\nmass_factor = 0.1\nstiffness_factor = 0.2\n",
-    );
+    has(BEAM, &[("*DENSITY", "*DAMPING, ALPHA=0.1, BETA=0.2\n*DENSITY")], None, "damping = { alpha = 0.1, beta = 0.2 }\n");
+    // Materials with and without damping stand side by side.
+    let second = "*MATERIAL, NAME=n\n*ELASTIC\n1e9, 0.3\n*MATERIAL, NAME=m\n*DAMPING, BETA=0.2\n";
+    has(BEAM, &[("*MATERIAL, NAME=m\n", second)], None, "damping = { alpha = 0.0, beta = 0.2 }\n");
+    let start = |value: &str| format!("*INITIAL CONDITIONS, TYPE=DISPLACEMENT\ntip, 3, {value}\n*STEP");
+    has(BEAM, &[("*STEP", &start("0."))], None, "[[loads]]");
+    refuses(BEAM, &[("*STEP", &start("0.1"))], "move the nodes of the mesh");
     has(
         BEAM,
         &[("*CLOAD", "*NODE FILE\nU, RF\n*EL PRINT\nS\n*CLOAD")],

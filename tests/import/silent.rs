@@ -95,7 +95,9 @@ fn amplitudes() {
     has(&with(", VALUE=RELATIVE, TIME=STEP TIME\n0., 0., 1., 2."), &[], None, "points = [[0.0, 0.0], [1.0, 2.0]]\n");
     let total = with(", TIME=TOTAL TIME\n0., 0., 1., 2.");
     has(&total, &[], None, "points = [[0.0, 0.0], [1.0, 2.0]]\n");
-    refuses(&total, &[("*END STEP\n", &second)], "TOTAL TIME is not translated");
+    // In a second step, to t = 2, the load goes on along the amplitude: from 10 to 20.
+    let longer = with(", TIME=TOTAL TIME\n0., 0., 2., 4.");
+    has(&longer, &[("*END STEP\n", &second)], None, "points = [[0.0, 0.0], [1.0, 0.5], [2.0, 1.0]]\n");
     has(&with(", TIME DELAY=1.\n0., 0., 1., 2."), &[], None, "points = [[1.0, 0.0], [2.0, 2.0]]\n");
     let unknown = [("*CLOAD", "*CLOAD, AMPLITUDE=B"), ("*END STEP\n", &second)];
     refuses(BEAM, &unknown, "no amplitude is named `B`");

@@ -1,7 +1,7 @@
 //! Files that once lost or moved something on their way into a deck.
 
-use super::{imported, imported_from, reasons, refusals, tables};
-use import::{Dialect, KeywordVerdict};
+use super::{imported, imported_from, refusals, tables};
+use import::Dialect;
 use rdsolve::diagnostic::Source;
 use rdsolve::model;
 
@@ -72,8 +72,6 @@ fn surfaces_of_parts() {
     );
     let deck = taken(&text);
     assert_eq!(deck.matches("pressure = 7.0").count(), 1, "{deck}");
-    let coupling = "*NODE\n9, 2., 0., 1.\n*SURFACE, NAME=s\n2, S1\n*COUPLING, REF NODE=9, SURFACE=s\n*KINEMATIC\n";
-    refuses(&format!("{HEAD}{coupling}{ROOT}{MODES}"), "give *SURFACE, TYPE=NODE");
 }
 
 #[test]
@@ -154,20 +152,6 @@ fn equations_and_couplings() {
     refuses(&coupling("2, 1, 3\n3, 1, 6"), "give all sets the same");
     has(&coupling("3, 1, 1\n3, 2, 3"), "dofs = [\"ux\", \"uy\", \"uz\"]\n");
     has(&coupling("2\n3, 1, 6"), "nodes = [\"mesh.2\", \"mesh.3\", \"mesh.9\"]\n");
-}
-
-#[test]
-fn damping_beside_springs() {
-    let damped = HEAD.replace("*DENSITY", "*DAMPING, ALPHA=0.1, BETA=0.2\n*DENSITY");
-    let text = format!(
-        "{damped}*ELEMENT, TYPE=SPRING1, ELSET=k\n7, 3\n*SPRING, ELSET=k\n3\n100.\n*ELEMENT, TYPE=MASS, ELSET=w\n8, 3\n*MASS, ELSET=w\n3.\n{ROOT}{MODES}"
-    );
-    let said = reasons(&imported(&text), KeywordVerdict::Changed);
-    assert!(
-        said.iter().any(|said| said.contains("springs too"))
-            && said.iter().any(|said| said.contains("masses at nodes too")),
-        "{said:?}"
-    );
 }
 
 #[test]

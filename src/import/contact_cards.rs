@@ -1,0 +1,100 @@
+//! Contact pairs and their laws: `*CONTACT PAIR`, `*SURFACE INTERACTION`, `*FRICTION`, `*SURFACE BEHAVIOR`.
+
+use crate::importer::Importer;
+use crate::keyword_block::KeywordBlock;
+use crate::scopes::NamedTarget;
+
+/// The law of contact under a name.
+#[derive(Debug, Clone, Default)]
+pub struct InteractionCard {
+    /// Its name in small letters.
+    pub name: String,
+    /// Coefficients of friction: while it sticks, while it slips fast, and the decay between them by the speed.
+    pub friction: Option<[f64; 3]>,
+}
+
+/// Two surfaces in contact.
+#[derive(Debug, Clone)]
+pub struct ContactCard {
+    /// Its line.
+    pub line: usize,
+    /// The name of its law in small letters.
+    pub interaction: String,
+    /// The surface whose nodes touch, and the one that they touch.
+    pub surfaces: [NamedTarget; 2],
+}
+
+/// All contacts of a file.
+#[derive(Debug, Default)]
+pub struct ContactCards {
+    /// The laws; the last one is still being read.
+    pub interactions: Vec<InteractionCard>,
+    /// The pairs.
+    pub pairs: Vec<ContactCard>,
+}
+
+/// `*SURFACE INTERACTION`.
+pub fn interaction(im: &mut Importer, block: &KeywordBlock) {
+    let name = block.keyword.value("NAME").unwrap_or_default().to_lowercase();
+    im.contacts.interactions.push(InteractionCard { name, friction: None });
+}
+
+/// `*FRICTION`: a coefficient, or with EXPONENTIAL DECAY two and their decay.
+pub fn friction(im: &mut Importer, block: &KeywordBlock) {
+    let line = block.keyword.line;
+    if block.keyword.has("ROUGH") || block.keyword.has("TAUMAX") {
+        return im.refuse(line, "friction is Coulomb's in rdsolve, without ROUGH and TAUMAX: give a coefficient");
+    }
+    let values = block.data.first().map(|data| im.numbers(data)).unwrap_or_default();
+    if block.data.len() > 1 {
+        im.change(line, "friction that depends on pressure or temperature: the first row is taken");
+    }
+    let at = |i: usize| values.get(i).copied().unwrap_or(0.0);
+    let friction = match block.keyword.has("EXPONENTIALDECAY") {
+        true => [at(0), at(1), at(2)],
+        false => [at(0), at(0), 0.0],
+    };
+    match im.contacts.interactions.last_mut() {
+        Some(law) => law.friction = Some(friction).filter(|friction| friction[0] > 0.0),
+        None => im.refuse(line, "no *SURFACE INTERACTION stands before this line"),
+    }
+}
+
+/// `*SURFACE BEHAVIOR`: pressure over penetration, which rdsolve chooses.
+pub fn behavior(im: &mut Importer, block: &KeywordBlock) {
+    let line = block.keyword.line;
+    let kind = block.keyword.value("PRESSUREOVERCLOSURE").unwrap_or("HARD").to_ascii_uppercase();
+    if block.keyword.has("NOSEPARATION") || kind == "TIED" {
+        return im.refuse(line, "surfaces that stay together are tied: give *TIE");
+    }
+    if kind != "HARD" {
+        let how = "rdsolve chooses the stiffness of contact, as `check` tells; give `stiffness`, a force per penetration of each node, where this one matters";
+        im.change(line, how);
+    }
+}
+
+/// `*CONTACT PAIR`: lines of two surfaces.
+pub fn pair(im: &mut Importer, block: &KeywordBlock) {
+    let (keyword, line) = (&block.keyword, block.keyword.line);
+    if keyword.has("TIED") {
+        return im.refuse(line, "surfaces that stay together are tied: give *TIE");
+    }
+    if im.steps.is_open && im.steps.list.len() > 1 {
+        return im.refuse(line, "contact acts from the start of the run here: put *CONTACT PAIR before the first step");
+    }
+    if keyword.has("ADJUST") {
+        im.change(line, "nodes keep their places: ADJUST moves none");
+    }
+    if keyword.has("NOTHICKNESS") {
+        im.change(line, "shells touch with their thickness");
+    }
+    let interaction = keyword.value("INTERACTION").unwrap_or_default().to_lowercase();
+    for data in block.data.iter().filter(|data| data.filled() > 0) {
+        let targets: Vec<NamedTarget> = data.words[..data.filled().min(2)].iter().map(|word| im.target(word)).collect();
+        let surfaces = match &targets[..] {
+            [slave, master] => [slave.clone(), master.clone()],
+            _ => [targets[0].clone(), targets[0].clone()],
+        };
+        im.contacts.pairs.push(ContactCard { line: data.line, interaction: interaction.clone(), surfaces });
+    }
+}

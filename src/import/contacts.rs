@@ -1,0 +1,85 @@
+//! `*CONTACT PAIR`: the nodes of one surface touch the faces of another.
+
+use crate::build::Build;
+use crate::contact_cards::ContactCard;
+use crate::deck_text::{DeckTable, inline, number, quoted};
+use crate::part_piece::PartPiece;
+use crate::scopes::NamedTarget;
+use crate::surfaces::lines;
+use std::collections::BTreeSet;
+
+/// Adds the contacts: a table for each part that is touched.
+pub fn contacts(build: &mut Build) {
+    for card in build.im.contacts.pairs.clone() {
+        let [slave, master] = &card.surfaces;
+        let (Some(touching), Some(touched)) = (names_of(build, slave), pieces_of(build, master)) else { continue };
+        if touching.is_empty() || touched.is_empty() {
+            let empty = if touching.is_empty() { slave } else { master };
+            if !build.im.is_incomplete() {
+                build.im.refuse(card.line, &format!("`{}` holds no beams, shells or rigid faces", empty.name));
+            }
+            continue;
+        }
+        for piece in touched {
+            pair(build, &card, &touching, &piece);
+        }
+    }
+}
+
+/// Adds the contact with one part.
+fn pair(build: &mut Build, card: &ContactCard, touching: &[String], piece: &PartPiece) {
+    let name = build.deck.unique(&format!("{}_{}", card.surfaces[0].name, piece.name));
+    let itself = |name: &String| if *name == piece.name { "itself".to_owned() } else { name.clone() };
+    let with: Vec<String> = touching.iter().map(itself).collect();
+    let table = DeckTable::new("contacts", card.line)
+        .text("name", &name)
+        .value("surface", inline(&[("part", quoted(&piece.name))]))
+        .names("with", &with);
+    let laws = &build.im.contacts.interactions;
+    let Some(law) = laws.iter().rfind(|law| law.name == card.interaction).cloned() else {
+        let why = format!("no surface interaction is named `{}`", card.interaction);
+        return build.im.refuse(card.line, &why);
+    };
+    let table = match law.friction {
+        Some([first, second, _]) if first == second => table.number("friction", first),
+        Some([first, second, decay]) => {
+            let keys = [("static", number(first)), ("kinetic", number(second)), ("decay", number(decay))];
+            table.value("friction", inline(&keys))
+        }
+        None => table,
+    };
+    build.deck.add(table);
+}
+
+/// Elements of the surfaces in contact: parts are cut there, and rigid elements have faces.
+pub fn marks(build: &Build) -> Vec<BTreeSet<usize>> {
+    let (scopes, mesh) = (&build.im.scopes, &build.mesh);
+    let surfaces = build.im.contacts.pairs.iter().flat_map(|card| &card.surfaces);
+    let sets = surfaces.filter_map(|surface| scopes.surface(surface)).flatten().filter(|(_, side)| side != "NODE");
+    sets.filter_map(|(set, _)| Some(mesh.cell_indices(scopes, &set)?.into_iter().collect())).collect()
+}
+
+/// The parts in a surface.
+fn pieces_of(build: &mut Build, surface: &NamedTarget) -> Option<Vec<PartPiece>> {
+    let mut cells = BTreeSet::new();
+    for (set, side) in lines(build, surface)? {
+        match &side[..] {
+            "NODE" => build.im.refuse(surface.line, "nodes touch the faces of elements: give a surface of elements"),
+            _ if side.starts_with('E') => build.im.refuse(surface.line, "contact of edges is `surface = { part, edges = true }` in the deck: give the faces, or add it there"),
+            _ => cells.extend(build.cells(&set)),
+        }
+    }
+    Some(build.pieces.iter().filter(|piece| piece.cells.is_subset(&cells)).cloned().collect())
+}
+
+/// The names of what touches: parts, or sets of nodes.
+fn names_of(build: &mut Build, surface: &NamedTarget) -> Option<Vec<String>> {
+    let lines = lines(build, surface)?;
+    if lines.iter().any(|(_, side)| side != "NODE") {
+        return Some(pieces_of(build, surface)?.into_iter().flat_map(|piece| piece.names).collect());
+    }
+    let sets: Vec<NamedTarget> = lines.into_iter().map(|(set, _)| set).collect();
+    let nodes: BTreeSet<u64> = sets.iter().flat_map(|set| build.nodes(set)).collect();
+    let used: BTreeSet<u64> = nodes.into_iter().filter(|node| build.mesh.used.contains(node)).collect();
+    Some(build.names(&used, &sets, &surface.name))
+}

@@ -1,0 +1,131 @@
+//! Loads along edges of shells: EDNOR, EDSHR, EDTRA and EDLD, as forces at the nodes.
+
+use crate::build::Build;
+use crate::deck_text::DeckTable;
+use crate::file_content::SpreadLine;
+use crate::loads::in_time;
+use crate::spread_loads::keeps_direction;
+use crate::surfaces::{edge, lines};
+use crate::timeline::TimeLaw;
+use base::math::Vec3;
+use base::math::curved_faces::corners;
+use base::math::quadrature::gauss;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Forces that differ by less, over the largest one, are the same but for rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// Adds the load as forces at the nodes of the edges.
+pub fn edges(build: &mut Build, line: &SpreadLine, law: &TimeLaw, of_lines: &[usize]) {
+    let given = match direction(line) {
+        Ok(given) => given,
+        Err(why) => return build.im.refuse(line.line, why),
+    };
+    let found = edges_of(build, line);
+    if found.is_empty() {
+        let why = format!("`{}` holds no edges of shells, which {} acts on", line.target.name, line.kind);
+        return build.im.refuse(line.line, &why);
+    }
+    let mut forces: BTreeMap<u64, Vec3> = BTreeMap::new();
+    for (cell, side) in found {
+        for (node, force) in at_nodes(build, cell, &side, &given) {
+            *forces.entry(node).or_insert_with(Vec3::zeros) += force * law.scale;
+        }
+    }
+    keeps_direction(build, line);
+    let largest = forces.values().map(|force| force.amax()).fold(0.0, f64::max);
+    let mut alike: BTreeMap<[i64; 3], (Vec3, BTreeSet<u64>)> = BTreeMap::new();
+    for (node, force) in forces.into_iter().filter(|(_, force)| force.amax() > ROUNDING * largest) {
+        let key = [0, 1, 2].map(|i| (force[i] / (ROUNDING * largest)).round() as i64 / 2);
+        alike.entry(key).or_insert_with(|| (force, BTreeSet::new())).1.insert(node);
+    }
+    for (force, nodes) in alike.into_values() {
+        let force = force.map(|x| if x.abs() < ROUNDING * largest { 0.0 } else { settled(x) });
+        let names = build.names(&nodes, &[], "edge");
+        let table = DeckTable::new("loads", 0).with_lines(of_lines.iter().copied()).names("at", &names);
+        build.deck.add(in_time(table.numbers("force", force.as_slice()), Some(law)));
+    }
+}
+
+/// A number without the rounding of the quadrature.
+fn settled(x: f64) -> f64 {
+    format!("{x:.12e}").parse().unwrap_or(x)
+}
+
+/// The direction of a load along an edge.
+enum Along {
+    /// In the face, across the edge and inwards.
+    Inwards,
+    /// Along the edge, in the order of the nodes.
+    Edge,
+    /// Against the normal of the face.
+    AgainstNormal,
+    /// One direction in space.
+    Global(Vec3),
+}
+
+fn direction(line: &SpreadLine) -> Result<Along, &'static str> {
+    let of = |at: usize| line.values.get(at).copied().unwrap_or(0.0);
+    match line.kind.trim_end_matches(|c: char| c.is_ascii_digit()) {
+        "EDNOR" => Ok(Along::Inwards),
+        "EDSHR" => Ok(Along::Edge),
+        "EDTRA" => Ok(Along::AgainstNormal),
+        "EDLD" => match Vec3::new(of(1), of(2), of(3)).try_normalize(0.0) {
+            Some(direction) => Ok(Along::Global(direction)),
+            None => Err("EDLD needs a direction behind its magnitude"),
+        },
+        "EDMOM" => Err("rdsolve has no moments per length along edges: give moments at the nodes"),
+        _ => Err("of loads along edges EDNOR, EDSHR, EDTRA and EDLD are translated"),
+    }
+}
+
+/// Elements and their sides: those of the surface, or of the number behind the kind.
+fn edges_of(build: &mut Build, line: &SpreadLine) -> Vec<(usize, String)> {
+    let number = line.kind.trim_start_matches(|c: char| !c.is_ascii_digit());
+    let sets = match line.is_surface {
+        true => lines(build, &line.target).unwrap_or_default(),
+        false => vec![(line.target.clone(), format!("E{number}"))],
+    };
+    let mut edges = Vec::new();
+    for (set, side) in sets.into_iter().filter(|(_, side)| side != "NODE") {
+        let shells = build.pieces.iter().filter(|piece| !piece.is_beam && !piece.is_bar);
+        let shells: BTreeSet<usize> = shells.flat_map(|piece| piece.cells.iter().copied()).collect();
+        let cells = build.cells(&set).into_iter().filter(|at| shells.contains(at));
+        let has_edge = |at: &usize| edge(&side, build.mesh.cells[*at].nodes.len()).is_some();
+        edges.extend(cells.collect::<Vec<_>>().into_iter().filter(has_edge).map(|at| (at, side.clone())));
+    }
+    edges
+}
+
+/// The forces on the nodes of an edge for a load of 1 per length: ∫ N f ds.
+fn at_nodes(build: &Build, cell: usize, side: &str, along: &Along) -> Vec<(u64, Vec3)> {
+    let nodes = &build.mesh.cells[cell].nodes;
+    let x = |k: usize| build.mesh.x(nodes[k]);
+    let normal = match corners(nodes.len()) {
+        3 => (x(1) - x(0)).cross(&(x(2) - x(0))),
+        _ => (x(2) - x(0)).cross(&(x(3) - x(1))),
+    };
+    let normal = normal.normalize();
+    let of_edge = edge(side, nodes.len()).unwrap_or_default();
+    let mut forces = vec![Vec3::zeros(); of_edge.len()];
+    let (places, weights) = gauss(3);
+    for (s, weight) in places.iter().zip(weights) {
+        // Shape functions over s from −1 to 1, and their slopes: both ends, and the middle if there is one.
+        let (n, d) = match of_edge.len() {
+            2 => (vec![0.5 * (1.0 - s), 0.5 * (1.0 + s)], vec![-0.5, 0.5]),
+            _ => (
+                vec![0.5 * s * (s - 1.0), 0.5 * s * (s + 1.0), 1.0 - s * s],
+                vec![s - 0.5, s + 0.5, -2.0 * s],
+            ),
+        };
+        let slope: Vec3 = of_edge.iter().zip(&d).map(|(k, d)| x(*k) * *d).sum();
+        let force = match along {
+            Along::Inwards => normal.cross(&slope).normalize(),
+            Along::Edge => slope.normalize(),
+            Along::AgainstNormal => -normal,
+            Along::Global(direction) => *direction,
+        };
+        forces.iter_mut().zip(&n).for_each(|(sum, n)| *sum += force * (n * weight * slope.norm()));
+    }
+    of_edge.iter().map(|k| nodes[*k]).zip(forces).collect()
+}

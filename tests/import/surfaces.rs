@@ -1,0 +1,157 @@
+//! Surfaces of edges and faces: couplings, and loads along edges.
+
+use super::rows::{SHELL, edited, has, refuses};
+use super::values::{moves, near};
+use super::{deck, imported, reasons, refusals, tables};
+use import::KeywordVerdict;
+
+/// The edge of the last two elements as a surface goes with the reference node as a set of its nodes does: M L²/(2 E I).
+#[test]
+fn a_coupling_of_an_edge() {
+    let body = "*Rigid body, Nset=Internal_Rigid_Edge, Ref node=100, Rot node=101\n";
+    let edge = "*Elset, Elset=last\n19, 20\n*Surface, Type=Element, Name=edge\nlast, E2\n\
+                *Coupling, Constraint name=c, Ref node=100, Surface=edge\n*Kinematic\n";
+    let text = edited(&deck("rigid_edge"), &[(body, edge), ("\n101, 2, 10", "\n100, 5, 10")]);
+    // Large rotations of 6e-3 lower it by the square over 12.
+    near(moves(&text, "mesh.32").0[2], -2.857135e-3, 1e-5);
+}
+
+/// Axes of a coupling make no difference where all degrees of freedom go with the node.
+#[test]
+fn axes_of_a_coupling() {
+    let with = |degrees: &str| {
+        format!("*NODE\n9, 2., 1., 0.\n*ORIENTATION, NAME=o\n0., 1., 0., -1., 0., 0.\n*SURFACE, NAME=edge\nskin, E2\n*COUPLING, CONSTRAINT NAME=c, REF NODE=9, SURFACE=edge, ORIENTATION=o\n*KINEMATIC\n{degrees}*STEP, NLGEOM")
+    };
+    has(SHELL, &[("*STEP, NLGEOM", &with(""))], None, "nodes = [\"mesh.2\", \"mesh.3\", \"mesh.9\"]\n");
+    has(SHELL, &[("*STEP, NLGEOM", &with("1, 6\n"))], None, "nodes = [\"mesh.2\", \"mesh.3\", \"mesh.9\"]\n");
+    refuses(SHELL, &[("*STEP, NLGEOM", &with("1, 2\n"))], "the axes of a coupling are the global ones");
+    refuses(SHELL, &[("*STEP, NLGEOM", &with("").replace("SURFACE=edge", "SURFACE=none"))], "no surface is named `none`");
+}
+
+/// EDNOR acts inwards, EDSHR along the edge, EDTRA against the normal; each on half of the edge at either end.
+#[test]
+fn loads_along_edges() {
+    let load = |line: &str| {
+        let lines = format!("*STEP, NLGEOM\n*STATIC\n0.5, 1.\n{line}");
+        edited(SHELL, &[("*STEP, NLGEOM\n*STATIC\n0.5, 1.\n*CLOAD\n3, 3, 5.", &lines)])
+    };
+    let edge = |line: &str| load(line).replace("*STEP", "*SURFACE, NAME=edge\nskin, E2\n*STEP");
+    for (text, force) in [
+        (load("*DLOAD\nskin, EDNOR2, 8."), "[-4.0, 0.0, 0.0]"),
+        (edge("*DSLOAD\nedge, EDNOR, 8."), "[-4.0, 0.0, 0.0]"),
+        (edge("*DSLOAD\nedge, EDSHR, 8."), "[0.0, 4.0, 0.0]"),
+        (edge("*DSLOAD\nedge, EDTRA, 8."), "[0.0, 0.0, -4.0]"),
+        (edge("*DSLOAD, FOLLOWER=NO\nedge, EDLD, 8., 0., 2., 0."), "[0.0, 4.0, 0.0]"),
+    ] {
+        has(&text, &[], None, &format!("[[loads]]\nat = [\"mesh.2\", \"mesh.3\"]\nforce = {force}\n"));
+    }
+    let turns = |text: &str| reasons(&imported(text), KeywordVerdict::Changed).len();
+    assert_eq!(turns(&edge("*DSLOAD\nedge, EDNOR, 8.")), 1);
+    assert_eq!(turns(&edge("*DSLOAD, FOLLOWER=NO\nedge, EDLD, 8., 0., 2., 0.")), 0);
+    assert_eq!(turns(&edge("*DSLOAD\nedge, EDNOR, 8.").replace(", NLGEOM", "")), 0);
+    refuses(&edge("*DSLOAD\nedge, EDMOM, 8."), &[], "no moments per length along edges");
+    refuses(&edge("*DSLOAD\nedge, EDLD, 8."), &[], "EDLD needs a direction");
+    refuses(&load("*DLOAD\nskin, EDNOR5, 8."), &[], "holds no edges of shells");
+    refuses(&load("*DLOAD\nskin, EDGE, 8."), &[], "of loads along edges");
+}
+
+/// The middle of an edge of three nodes has two thirds of its load, and a curved edge the resultant of its chord.
+#[test]
+fn loads_along_curved_edges() {
+    let eight = edited(
+        SHELL,
+        &[
+            ("4, 0., 1., 0.\n", "4, 0., 1., 0.\n5, 0.5, 0., 0.\n6, 1., 0.5, 0.\n7, 0.5, 1., 0.\n8, 0., 0.5, 0.\n"),
+            ("TYPE=S4,", "TYPE=S8R,"),
+            ("1, 1, 2, 3, 4\n", "1, 1, 2, 3, 4, 5, 6, 7, 8\n"),
+            ("*CLOAD\n3, 3, 5.", "*DLOAD\nskin, EDNOR2, 6."),
+        ],
+    );
+    let made = imported(&eight);
+    assert_eq!(refusals(&made), [""; 0]);
+    for wanted in ["at = [\"mesh.2\", \"mesh.3\"]\nforce = [-1.0, 0.0, 0.0]\n", "at = \"mesh.6\"\nforce = [-4.0, 0.0, 0.0]\n"] {
+        assert!(tables(&made.deck).contains(wanted), "{wanted} is not in\n{}", made.deck);
+    }
+    // A pressure on any curve between two points has the resultant of their chord: 6 along −x.
+    let bent = imported(&eight.replace("6, 1., 0.5, 0.", "6, 1.2, 0.5, 0."));
+    let text = tables(&bent.deck);
+    let loads = text.split("[[loads]]\n").skip(1);
+    let resultant: f64 = loads
+        .map(|load| {
+            let mut lines = load.lines();
+            let nodes = lines.next().unwrap().matches("mesh.").count();
+            let force = lines.next().unwrap().trim_start_matches("force = [");
+            nodes as f64 * force.split(',').next().unwrap().parse::<f64>().unwrap()
+        })
+        .sum();
+    // Gauss's three points are exact for the normal of a parabola times its shape functions.
+    assert!((resultant + 6.0).abs() < 1e-12, "{text}");
+}
+
+/// Tractions on faces have a direction in space.
+#[test]
+fn tractions_on_faces() {
+    let text = edited(SHELL, &[("*CLOAD\n3, 3, 5.", "*DSLOAD\ntop, TRVEC, 6., 0., 3., 4."), ("*STEP,", "*SURFACE, NAME=top\nskin, SNEG\n*STEP,")]);
+    // 6 along (0, 0.6, 0.8).
+    let made = imported(&text);
+    assert_eq!(refusals(&made), [""; 0]);
+    let line = made.deck.lines().find_map(|line| line.strip_prefix("force_per_area = [")).unwrap();
+    let found: Vec<f64> = line.trim_end_matches(']').split(", ").map(|x| x.parse().unwrap()).collect();
+    for (found, wanted) in found.into_iter().zip([0.0, 3.6, 4.8]) {
+        assert!((found - wanted).abs() < 1e-14, "{line}"); // rounding
+    }
+    refuses(&text, &[("TRVEC, 6., 0., 3., 4.", "TRVEC, 6.")], "TRVEC needs a direction");
+    refuses(&text, &[("TRVEC", "TRSHR")], "not TRSHR on SNEG");
+}
+
+/// A rigid punch lowers a cantilever strip by its edge: P = 3 E I d/a³ with d what it goes on after the gap, and no Poisson's ratio.
+const PUNCH: &str = "*PART, NAME=Strip\n*NODE\nNODES*ELEMENT, TYPE=S4, ELSET=skin\nCELLS*SHELL SECTION, ELSET=skin, MATERIAL=m\n0.01\n*END PART\n\
+    *PART, NAME=Punch\n*NODE\n1, 0.95, -0.05, 0.\n2, 1.1, -0.05, 0.\n3, 1.1, 0.15, 0.\n4, 0.95, 0.15, 0.\n9, 1., 0., 0.1\n\
+    *ELEMENT, TYPE=R3D4, ELSET=stamp\n1, 1, 2, 3, 4\n*NSET, NSET=RP\n9\n*END PART\n\
+    *ASSEMBLY, NAME=A\n*INSTANCE, NAME=S, PART=Strip\n*END INSTANCE\n*INSTANCE, NAME=P, PART=Punch\n0., 0., 0.006\n*END INSTANCE\n\
+    *SURFACE, NAME=top\nS.skin, SPOS\n*SURFACE, NAME=face\nP.stamp, SNEG\n*RIGID BODY, REF NODE=P.RP, ELSET=P.stamp\n*END ASSEMBLY\n\
+    *MATERIAL, NAME=m\n*ELASTIC\n2e11, 0.\n*SURFACE INTERACTION, NAME=smooth\n1.\nFRICTION*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n\
+    *BOUNDARY\nS.1, 1, 6\nS.22, 1, 6\nP.RP, 1, 2\nP.RP, 4, 6\n*CONTACT PAIR, INTERACTION=smooth, TYPE=SURFACE TO SURFACE\ntop, face\n\
+    *STEP, NLGEOM\n*STATIC\n0.1, 1.\n*BOUNDARY\nP.RP, 3, 3, -0.003\n*OUTPUT, FIELD, VARIABLE=PRESELECT\n*END STEP\n";
+
+/// The file of the punch, with further lines below its law of contact.
+fn punch(friction: &str) -> String {
+    let place = |k: usize| format!("{}, {:?}, {:?}, 0.\n", k + 1, 0.05 * (k % 21) as f64, 0.1 * (k / 21) as f64);
+    let cell = |k: usize| format!("{}, {}, {}, {}, {}\n", k + 1, k + 1, k + 2, k + 23, k + 22);
+    let (nodes, cells): (String, String) = ((0..42).map(place).collect(), (0..20).map(cell).collect());
+    PUNCH.replace("NODES", &nodes).replace("CELLS", &cells).replace("FRICTION", friction)
+}
+
+#[test]
+fn a_contact_pair() {
+    let made = imported(&punch(""));
+    assert_eq!(refusals(&made), [""; 0]);
+    assert_eq!(reasons(&made, KeywordVerdict::Changed), [""; 0]);
+    // The gap of 0.006 less half the thickness is 0.001, so that the node at 0.95 goes down by 0.002.
+    let (at_edge, _) = moves(&punch(""), "mesh.20");
+    near(at_edge[2], -0.002, 2e-2); // the penalty gives way by some parts in a thousand
+    // Beyond the edge the strip is straight: w(L)/w(a) = 1 + 3/2 (L − a)/a.
+    let (at_tip, _) = moves(&punch(""), "mesh.21");
+    near(at_tip[2] / at_edge[2], 1.0 + 1.5 * 0.05 / 0.95, 1e-3);
+}
+
+#[test]
+fn laws_of_contact() {
+    has(&punch("*FRICTION\n0.2,\n"), &[], None, "friction = 0.2\n");
+    has(
+        &punch("*FRICTION, EXPONENTIAL DECAY\n0.3, 0.2, 5.\n"),
+        &[("*STATIC\n0.1, 1.", "*DYNAMIC\n0.1, 1.")],
+        None,
+        "friction = { static = 0.3, kinetic = 0.2, decay = 5.0 }\n",
+    );
+    refuses(&punch("*FRICTION, ROUGH\n"), &[], "friction is Coulomb's");
+    let plain = punch("");
+    refuses(&plain, &[("INTERACTION=smooth,", "INTERACTION=rough,")], "no surface interaction is named `rough`");
+    refuses(&plain, &[("top, face", "top, none")], "no surface is named `none`");
+    refuses(&plain, &[("PRESSURE-OVERCLOSURE=HARD", "NO SEPARATION")], "give *TIE");
+    refuses(&plain, &[("*CONTACT PAIR,", "*CONTACT PAIR, TIED,")], "give *TIE");
+    refuses(&plain, &[("S.skin, SPOS", "S.skin, E1")], "contact of edges");
+    let linear = [("OVERCLOSURE=HARD\n", "OVERCLOSURE=LINEAR\n1e9,\n")];
+    let said = reasons(&imported(&edited(&plain, &linear)), KeywordVerdict::Changed);
+    assert!(said[0].contains("rdsolve chooses the stiffness"), "{said:?}");
+}
