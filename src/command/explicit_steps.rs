@@ -2,11 +2,14 @@
 
 use base::names::to_digits;
 use mechanics::integrators::Stepping;
-use model::Model;
+use model::{Model, PartKind};
 use solve::system::{System, added_at, governing};
 
 /// The multiples of the critical time step whose mass is told.
 const MULTIPLES: [f64; 3] = [2.0, 5.0, 10.0];
+
+/// More steps take longer than those of implicit schemes.
+const MOST_STEPS: f64 = 1e6;
 
 /// The critical time step of the elements, and the element that governs it.
 pub fn limit_of_steps(model: &Model, system: &System) -> Option<(&'static str, String)> {
@@ -47,6 +50,21 @@ pub fn offers(model: &Model, system: &System) -> Vec<(&'static str, String)> {
         (if k == 0 { "longer" } else { "" }, what)
     };
     MULTIPLES.into_iter().enumerate().map(line).collect()
+}
+
+/// Central differences beside a scheme that nobody asked for, where parts that deform strike something: each blow takes short steps of
+/// any scheme.
+pub fn alternative(model: &Model, system: &System) -> Option<String> {
+    let touches = model.parts.iter().any(|part| matches!(part.kind(), PartKind::Contact));
+    let strikes = model.analysis.is_dynamic() && model.solution.scheme_is_chosen && touches;
+    let found = strikes.then(|| governing(model, &system.groups, true)).flatten()?;
+    let steps = model.analysis.duration() / (model.stable_fraction() * found.step);
+    (steps < MOST_STEPS).then(|| {
+        format!(
+            "blows of parts that deform often take less time by `scheme = \"central-difference\"` in [integrator], here about {} steps; compare both",
+            to_digits(steps, 2)
+        )
+    })
 }
 
 /// True where central differences move the scene.

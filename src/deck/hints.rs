@@ -17,8 +17,8 @@ use std::sync::LazyLock;
 static HINTS: LazyLock<Hints> =
     LazyLock::new(|| toml::from_str(include_str!("hints.toml")).expect("the rows of hints are read by their tests"));
 
-/// All kinds that words of the deck choose from.
-static KINDS: LazyLock<Vec<Kind<()>>> = LazyLock::new(|| {
+/// All kinds that words of the deck choose from, a list for each choice.
+static KINDS: LazyLock<Vec<Vec<Kind<()>>>> = LazyLock::new(|| {
     let mut kinds = Vec::new();
     add(&mut kinds, SCHEMES);
     add(&mut kinds, JOINTS);
@@ -30,8 +30,15 @@ static KINDS: LazyLock<Vec<Kind<()>>> = LazyLock::new(|| {
     kinds
 });
 
-fn add<M>(kinds: &mut Vec<Kind<()>>, list: &[&Kind<M>]) {
-    kinds.extend(list.iter().map(|kind| kind.with(())));
+fn add<M>(kinds: &mut Vec<Vec<Kind<()>>>, list: &[&Kind<M>]) {
+    kinds.push(list.iter().map(|kind| kind.with(())).collect());
+}
+
+/// The words of the other kinds of a choice that take a key.
+pub fn kinds_with<M>(kind: &Kind<M>, key: &str) -> Vec<&'static str> {
+    let is_of = |list: &&Vec<Kind<()>>| list.iter().any(|one| one.word == kind.word && one.about == kind.about);
+    let takers = KINDS.iter().filter(is_of).flatten().filter(|other| other.takes(key));
+    takers.map(|other| other.word).collect()
 }
 
 #[derive(Deserialize)]
@@ -108,13 +115,13 @@ pub fn value(guess: &str, known: &[&str]) -> Option<String> {
 
 /// The kind meant by a guessed word, by the guesses listed for each kind.
 fn kind(guess: &str, known: &[&str]) -> Option<&'static str> {
-    let meant = KINDS.iter().filter(|kind| kind.guesses.contains(&guess)).map(|kind| kind.word);
+    let meant = KINDS.iter().flatten().filter(|kind| kind.guesses.contains(&guess)).map(|kind| kind.word);
     meant.into_iter().find(|word| known.contains(word))
 }
 
 /// Second words of the kinds that are known here: a slip of the pen may be meant for one of them.
 pub fn aliases(known: &[&str]) -> Vec<&'static str> {
-    KINDS.iter().filter(|kind| known.contains(&kind.word)).flat_map(|kind| kind.aliases).copied().collect()
+    KINDS.iter().flatten().filter(|kind| known.contains(&kind.word)).flat_map(|kind| kind.aliases).copied().collect()
 }
 
 #[cfg(test)]

@@ -48,7 +48,7 @@ pub mod ties;
 mod value;
 
 pub use base::words;
-pub use hints::missing as remedy_of_missing;
+pub use hints::{kinds_with, missing as remedy_of_missing};
 pub use read::read;
 
 use schemars::JsonSchema;

@@ -41,8 +41,7 @@ pub fn coupling(im: &mut Importer, block: &KeywordBlock) {
     let reference = NamedTarget { is_set: false, ..im.set_target(reference, line) };
     let name = keyword.value("CONSTRAINTNAME").unwrap_or(surface_name).to_owned();
     let surface = im.set_target(surface_name, line);
-    im.constraints.open =
-        Some(OpenCoupling { line, name, reference, surface, is_turned: keyword.has("ORIENTATION") });
+    im.constraints.open = Some(OpenCoupling { line, name, reference, surface, is_turned: keyword.has("ORIENTATION") });
 }
 
 /// `*KINEMATIC` below a coupling.

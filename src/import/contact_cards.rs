@@ -9,8 +9,8 @@ use crate::scopes::NamedTarget;
 pub struct InteractionCard {
     /// Its name in small letters.
     pub name: String,
-    /// Coefficients of friction: while it sticks, while it slips fast, and the decay between them by the speed.
-    pub friction: Option<[f64; 3]>,
+    /// Coefficients of friction: while it sticks, while it slips fast, and the decay between them by the speed; and their line.
+    pub friction: Option<([f64; 3], usize)>,
 }
 
 /// Two surfaces in contact.
@@ -22,6 +22,8 @@ pub struct ContactCard {
     pub interaction: String,
     /// The surface whose nodes touch, and the one that they touch.
     pub surfaces: [NamedTarget; 2],
+    /// True where Abaqus leaves out the thickness of shells: nodes touch a surface at finite sliding.
+    pub is_thin: bool,
 }
 
 /// All contacts of a file.
@@ -35,7 +37,9 @@ pub struct ContactCards {
 
 /// `*SURFACE INTERACTION`.
 pub fn interaction(im: &mut Importer, block: &KeywordBlock) {
-    let name = block.keyword.value("NAME").unwrap_or_default().to_lowercase();
+    let Some(name) = block.keyword.value("NAME").map(str::to_lowercase) else {
+        return im.refuse(block.keyword.line, "*SURFACE INTERACTION needs NAME=");
+    };
     im.contacts.interactions.push(InteractionCard { name, friction: None });
 }
 
@@ -54,8 +58,13 @@ pub fn friction(im: &mut Importer, block: &KeywordBlock) {
         true => [at(0), at(1), at(2)],
         false => [at(0), at(0), 0.0],
     };
+    let [first, second, decay] = friction;
+    if !(first.is_finite() && 0.0 <= second && second <= first && (0.0..f64::INFINITY).contains(&decay)) {
+        let why = "coefficients of friction are 0 or more, the one while it slips is at most the one while it sticks, and so is the decay 0 or more";
+        return im.refuse(line, why);
+    }
     match im.contacts.interactions.last_mut() {
-        Some(law) => law.friction = Some(friction).filter(|friction| friction[0] > 0.0),
+        Some(law) => law.friction = Some((friction, line)).filter(|_| first > 0.0),
         None => im.refuse(line, "no *SURFACE INTERACTION stands before this line"),
     }
 }
@@ -63,9 +72,9 @@ pub fn friction(im: &mut Importer, block: &KeywordBlock) {
 /// `*SURFACE BEHAVIOR`: pressure over penetration, which rdsolve chooses.
 pub fn behavior(im: &mut Importer, block: &KeywordBlock) {
     let line = block.keyword.line;
-    let kind = block.keyword.value("PRESSUREOVERCLOSURE").unwrap_or("HARD").to_ascii_uppercase();
+    let kind = block.keyword.value("PRESSURE-OVERCLOSURE").unwrap_or("HARD").to_ascii_uppercase();
     if block.keyword.has("NOSEPARATION") || kind == "TIED" {
-        return im.refuse(line, "surfaces that stay together are tied: give *TIE");
+        return im.refuse(line, "contact opens again in rdsolve: give *TIE for surfaces that stay together");
     }
     if kind != "HARD" {
         let how = "rdsolve chooses the stiffness of contact, as `check` tells; give `stiffness`, a force per penetration of each node, where this one matters";
@@ -77,7 +86,7 @@ pub fn behavior(im: &mut Importer, block: &KeywordBlock) {
 pub fn pair(im: &mut Importer, block: &KeywordBlock) {
     let (keyword, line) = (&block.keyword, block.keyword.line);
     if keyword.has("TIED") {
-        return im.refuse(line, "surfaces that stay together are tied: give *TIE");
+        return im.refuse(line, "contact opens again in rdsolve: give *TIE for surfaces that stay together");
     }
     if im.steps.is_open && im.steps.list.len() > 1 {
         return im.refuse(line, "contact acts from the start of the run here: put *CONTACT PAIR before the first step");
@@ -85,16 +94,23 @@ pub fn pair(im: &mut Importer, block: &KeywordBlock) {
     if keyword.has("ADJUST") {
         im.change(line, "nodes keep their places: ADJUST moves none");
     }
-    if keyword.has("NOTHICKNESS") {
-        im.change(line, "shells touch with their thickness");
+    if keyword.has("SMALLSLIDING") {
+        im.change(line, "surfaces slide without limit; SMALL SLIDING keeps the planes of contact of the start");
     }
-    let interaction = keyword.value("INTERACTION").unwrap_or_default().to_lowercase();
+    let Some(interaction) = keyword.value("INTERACTION").map(str::to_lowercase) else {
+        return im.refuse(line, "*CONTACT PAIR needs INTERACTION=");
+    };
+    let of_surfaces = keyword.value("TYPE").is_some_and(|kind| kind.to_ascii_uppercase().starts_with("SURFACE"));
+    if keyword.has("NOTHICKNESS") {
+        im.change(line, "shells touch with half their thickness");
+    }
+    let is_thin = !of_surfaces && !keyword.has("SMALLSLIDING") && !keyword.has("NOTHICKNESS");
     for data in block.data.iter().filter(|data| data.filled() > 0) {
         let targets: Vec<NamedTarget> = data.words[..data.filled().min(2)].iter().map(|word| im.target(word)).collect();
         let surfaces = match &targets[..] {
             [slave, master] => [slave.clone(), master.clone()],
             _ => [targets[0].clone(), targets[0].clone()],
         };
-        im.contacts.pairs.push(ContactCard { line: data.line, interaction: interaction.clone(), surfaces });
+        im.contacts.pairs.push(ContactCard { line: data.line, interaction: interaction.clone(), surfaces, is_thin });
     }
 }

@@ -1,8 +1,10 @@
 //! `*CONTACT PAIR`: the nodes of one surface touch the faces of another.
 
 use crate::build::Build;
-use crate::contact_cards::ContactCard;
+use crate::contact_cards::{ContactCard, InteractionCard};
 use crate::deck_text::{DeckTable, inline, number, quoted};
+use crate::dialect::Dialect;
+use crate::file_content::{StepCard, StepProcedure};
 use crate::part_piece::PartPiece;
 use crate::scopes::NamedTarget;
 use crate::surfaces::lines;
@@ -20,14 +22,37 @@ pub fn contacts(build: &mut Build) {
             }
             continue;
         }
+        let laws = &build.im.contacts.interactions;
+        let Some(law) = laws.iter().rfind(|law| law.name == card.interaction).cloned() else {
+            let why = format!("no surface interaction is named `{}`", card.interaction);
+            build.im.refuse(card.line, &why);
+            continue;
+        };
+        say_thickness(build, &card);
         for piece in touched {
-            pair(build, &card, &touching, &piece);
+            pair(build, &card, &touching, (&piece, &law));
         }
     }
 }
 
+/// Tells where the other program leaves out the thickness of shells.
+fn say_thickness(build: &mut Build, card: &ContactCard) {
+    let is_explicit =
+        |step: &StepCard| matches!(step.procedure, Some((StepProcedure::Dynamic { is_explicit: true, .. }, _)));
+    let thickest = build.pieces.iter().filter(|piece| !piece.is_beam && !piece.is_bar && !piece.is_rigid);
+    let thickest = thickest.map(|piece| piece.size).fold(0.0, f64::max);
+    let has_thickness = build.im.dialect == Some(Dialect::Calculix) || build.im.steps.list.iter().any(is_explicit);
+    if card.is_thin && thickest > 0.0 && !has_thickness {
+        let how = format!(
+            "shells touch with half their thickness, up to {:?}; Abaqus leaves it out without TYPE=SURFACE TO SURFACE: give that, or move the parts",
+            0.5 * thickest
+        );
+        build.im.change(card.line, &how);
+    }
+}
+
 /// Adds the contact with one part.
-fn pair(build: &mut Build, card: &ContactCard, touching: &[String], piece: &PartPiece) {
+fn pair(build: &mut Build, card: &ContactCard, touching: &[String], (piece, law): (&PartPiece, &InteractionCard)) {
     let name = build.deck.unique(&format!("{}_{}", card.surfaces[0].name, piece.name));
     let itself = |name: &String| if *name == piece.name { "itself".to_owned() } else { name.clone() };
     let with: Vec<String> = touching.iter().map(itself).collect();
@@ -35,15 +60,17 @@ fn pair(build: &mut Build, card: &ContactCard, touching: &[String], piece: &Part
         .text("name", &name)
         .value("surface", inline(&[("part", quoted(&piece.name))]))
         .names("with", &with);
-    let laws = &build.im.contacts.interactions;
-    let Some(law) = laws.iter().rfind(|law| law.name == card.interaction).cloned() else {
-        let why = format!("no surface interaction is named `{}`", card.interaction);
-        return build.im.refuse(card.line, &why);
-    };
+    let is_moving = build.timeline.stages.iter().all(|stage| stage.is_dynamic);
     let table = match law.friction {
-        Some([first, second, _]) if first == second => table.number("friction", first),
-        Some([first, second, decay]) => {
-            let keys = [("static", number(first)), ("kinetic", number(second)), ("decay", number(decay))];
+        Some(([first, second, _], line)) if first == second || !is_moving => {
+            if first != second {
+                build.im.change(line, "friction has the coefficient while it sticks: speeds act in *DYNAMIC alone");
+            }
+            table.number("friction", first)
+        }
+        Some(([first, second, decay], _)) => {
+            let mut keys = vec![("static", number(first)), ("kinetic", number(second))];
+            keys.extend((decay > 0.0).then(|| ("decay", number(decay))));
             table.value("friction", inline(&keys))
         }
         None => table,
@@ -65,11 +92,20 @@ fn pieces_of(build: &mut Build, surface: &NamedTarget) -> Option<Vec<PartPiece>>
     for (set, side) in lines(build, surface)? {
         match &side[..] {
             "NODE" => build.im.refuse(surface.line, "nodes touch the faces of elements: give a surface of elements"),
-            _ if side.starts_with('E') => build.im.refuse(surface.line, "contact of edges is `surface = { part, edges = true }` in the deck: give the faces, or add it there"),
+            _ if side.starts_with('E') => build.im.refuse(
+                surface.line,
+                "contact of edges is `surface = { part, edges = true }` in the deck: give the faces, or add it there",
+            ),
             _ => cells.extend(build.cells(&set)),
         }
     }
-    Some(build.pieces.iter().filter(|piece| piece.cells.is_subset(&cells)).cloned().collect())
+    let found: Vec<PartPiece> = build.pieces.iter().filter(|piece| piece.cells.is_subset(&cells)).cloned().collect();
+    let covered: BTreeSet<usize> = found.iter().flat_map(|piece| piece.cells.iter().copied()).collect();
+    if let Some(at) = cells.difference(&covered).next().filter(|_| !found.is_empty() && !build.im.is_incomplete()) {
+        let why = format!("element {} of `{}` is in no part that touches", build.mesh.cells[*at].id, surface.name);
+        build.im.refuse(surface.line, &why);
+    }
+    Some(found)
 }
 
 /// The names of what touches: parts, or sets of nodes.

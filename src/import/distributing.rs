@@ -16,8 +16,11 @@ pub fn couplings(build: &mut Build) {
         let Some(reference) = reference(build, &card) else { continue };
         let mut weights: BTreeMap<u64, f64> = BTreeMap::new();
         if let Some(surface) = &card.surface {
-            let nodes = surfaces::nodes_of(build, surface).unwrap_or_default();
-            weights.extend(nodes.into_iter().map(|node| (node, 1.0)));
+            let Some((of_surface, is_even)) = surfaces::weights_of(build, surface) else { continue };
+            weights.extend(of_surface);
+            if is_even {
+                build.im.change(card.line, "the nodes of a face of second degree weigh the same");
+            }
         }
         for (target, weight) in &card.nodes {
             weights.extend(build.nodes(target).into_iter().map(|node| (node, *weight)));

@@ -27,8 +27,12 @@ pub fn edges(build: &mut Build, line: &SpreadLine, law: &TimeLaw, of_lines: &[us
         return build.im.refuse(line.line, &why);
     }
     let mut forces: BTreeMap<u64, Vec3> = BTreeMap::new();
-    for (cell, side) in found {
-        for (node, force) in at_nodes(build, cell, &side, &given) {
+    for (cell, of_edge) in found {
+        let Some(at) = at_nodes(build, cell, &of_edge, &given) else {
+            let why = format!("element {} has no area, and so no direction of this load", build.mesh.cells[cell].id);
+            return build.im.refuse(line.line, &why);
+        };
+        for (node, force) in at {
             *forces.entry(node).or_insert_with(Vec3::zeros) += force * law.scale;
         }
     }
@@ -75,57 +79,62 @@ fn direction(line: &SpreadLine) -> Result<Along, &'static str> {
             None => Err("EDLD needs a direction behind its magnitude"),
         },
         "EDMOM" => Err("rdsolve has no moments per length along edges: give moments at the nodes"),
-        _ => Err("of loads along edges EDNOR, EDSHR, EDTRA and EDLD are translated"),
+        _ => Err("rdsolve knows EDNOR, EDSHR, EDTRA and EDLD along edges: give one of these"),
     }
 }
 
-/// Elements and their sides: those of the surface, or of the number behind the kind.
-fn edges_of(build: &mut Build, line: &SpreadLine) -> Vec<(usize, String)> {
+/// Elements and the places of the nodes of their edges, each once: those of the surface, or of the number behind the kind.
+fn edges_of(build: &mut Build, line: &SpreadLine) -> BTreeSet<(usize, Vec<usize>)> {
     let number = line.kind.trim_start_matches(|c: char| !c.is_ascii_digit());
     let sets = match line.is_surface {
         true => lines(build, &line.target).unwrap_or_default(),
         false => vec![(line.target.clone(), format!("E{number}"))],
     };
-    let mut edges = Vec::new();
+    let shells = build.pieces.iter().filter(|piece| !piece.is_beam && !piece.is_bar);
+    let shells: BTreeSet<usize> = shells.flat_map(|piece| piece.cells.iter().copied()).collect();
+    let mut edges = BTreeSet::new();
     for (set, side) in sets.into_iter().filter(|(_, side)| side != "NODE") {
-        let shells = build.pieces.iter().filter(|piece| !piece.is_beam && !piece.is_bar);
-        let shells: BTreeSet<usize> = shells.flat_map(|piece| piece.cells.iter().copied()).collect();
         let cells = build.cells(&set).into_iter().filter(|at| shells.contains(at));
-        let has_edge = |at: &usize| edge(&side, build.mesh.cells[*at].nodes.len()).is_some();
-        edges.extend(cells.collect::<Vec<_>>().into_iter().filter(has_edge).map(|at| (at, side.clone())));
+        edges.extend(cells.filter_map(|at| Some((at, edge(&side, build.mesh.cells[at].nodes.len())?))));
     }
     edges
 }
 
-/// The forces on the nodes of an edge for a load of 1 per length: ∫ N f ds.
-fn at_nodes(build: &Build, cell: usize, side: &str, along: &Along) -> Vec<(u64, Vec3)> {
+/// The forces on the nodes of an edge for a load of 1 per length, ∫ N f ds; `None` for an element without a normal.
+fn at_nodes(build: &Build, cell: usize, of_edge: &[usize], along: &Along) -> Option<Vec<(u64, Vec3)>> {
     let nodes = &build.mesh.cells[cell].nodes;
     let x = |k: usize| build.mesh.x(nodes[k]);
     let normal = match corners(nodes.len()) {
         3 => (x(1) - x(0)).cross(&(x(2) - x(0))),
         _ => (x(2) - x(0)).cross(&(x(3) - x(1))),
     };
-    let normal = normal.normalize();
-    let of_edge = edge(side, nodes.len()).unwrap_or_default();
+    let normal = normal.try_normalize(0.0)?;
     let mut forces = vec![Vec3::zeros(); of_edge.len()];
-    let (places, weights) = gauss(3);
-    for (s, weight) in places.iter().zip(weights) {
-        // Shape functions over s from −1 to 1, and their slopes: both ends, and the middle if there is one.
-        let (n, d) = match of_edge.len() {
-            2 => (vec![0.5 * (1.0 - s), 0.5 * (1.0 + s)], vec![-0.5, 0.5]),
-            _ => (
-                vec![0.5 * s * (s - 1.0), 0.5 * s * (s + 1.0), 1.0 - s * s],
-                vec![s - 0.5, s + 0.5, -2.0 * s],
-            ),
-        };
-        let slope: Vec3 = of_edge.iter().zip(&d).map(|(k, d)| x(*k) * *d).sum();
+    for (weights, slope) in along_edge(&of_edge.iter().map(|k| x(*k)).collect::<Vec<_>>()) {
+        // An edge without length has no load.
+        let Some(tangent) = slope.try_normalize(0.0) else { continue };
         let force = match along {
-            Along::Inwards => normal.cross(&slope).normalize(),
-            Along::Edge => slope.normalize(),
+            Along::Inwards => normal.cross(&tangent).normalize(),
+            Along::Edge => tangent,
             Along::AgainstNormal => -normal,
             Along::Global(direction) => *direction,
         };
-        forces.iter_mut().zip(&n).for_each(|(sum, n)| *sum += force * (n * weight * slope.norm()));
+        forces.iter_mut().zip(&weights).for_each(|(sum, weight)| *sum += force * (weight * slope.norm()));
     }
-    of_edge.iter().map(|k| nodes[*k]).zip(forces).collect()
+    Some(of_edge.iter().map(|k| nodes[*k]).zip(forces).collect())
+}
+
+/// Gauss's points of an edge by its nodes, both ends first: weights of the nodes there, and the slope of the place.
+pub fn along_edge(x: &[Vec3]) -> Vec<(Vec<f64>, Vec3)> {
+    let (places, weights) = gauss(3);
+    let point = |(s, weight): (&f64, &f64)| {
+        // Shape functions over s from −1 to 1, and their slopes.
+        let (n, d) = match x.len() {
+            2 => (vec![0.5 * (1.0 - s), 0.5 * (1.0 + s)], vec![-0.5, 0.5]),
+            _ => (vec![0.5 * s * (s - 1.0), 0.5 * s * (s + 1.0), 1.0 - s * s], vec![s - 0.5, s + 0.5, -2.0 * s]),
+        };
+        let slope: Vec3 = x.iter().zip(&d).map(|(x, d)| x * *d).sum();
+        (n.into_iter().map(|n| n * weight).collect(), slope)
+    };
+    places.iter().zip(weights).map(point).collect()
 }

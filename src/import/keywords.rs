@@ -3,8 +3,8 @@
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::{
-    amplitude_cards, base_motion, connector_cards, constraint_cards, contact_cards, harmonics, material_cards, mesh_cards,
-    mesh_makers, nodal_axes, property_cards, section_cards, step_cards, temperatures,
+    amplitude_cards, base_motion, connector_cards, constraint_cards, contact_cards, harmonics, material_cards,
+    mesh_cards, mesh_makers, nodal_axes, property_cards, section_cards, step_cards, temperatures,
 };
 use std::fmt::Write;
 
@@ -126,7 +126,7 @@ pub const KEYWORDS: &[KeywordRow] = &[
     read("PLASTIC", "HARDENING DATATYPE", material_cards::plastic, "[materials] hardening, kinematic_share"),
     read("RATE DEPENDENT", "TYPE", material_cards::rate_dependent, "[materials] viscosity"),
     read("DENSITY", "", material_cards::density, "[materials] density"),
-    read("DAMPING", "ALPHA BETA STRUCTURAL COMPOSITE", material_cards::damping, "[damping]"),
+    read("DAMPING", "ALPHA BETA STRUCTURAL COMPOSITE", material_cards::damping, "damping of parts"),
     read("EXPANSION", "TYPE ZERO", material_cards::expansion, "[materials] expansion, where a temperature changes"),
     read("MASS", "ELSET ALPHA", property_cards::mass, "[[masses]]"),
     read("ROTARY INERTIA", "ELSET ALPHA ORIENTATION", property_cards::inertia, "[[masses]] inertia, or that of a body"),
@@ -164,10 +164,10 @@ pub const KEYWORDS: &[KeywordRow] = &[
         contact_cards::pair,
         "[[contacts]]",
     ),
-    read("SURFACE INTERACTION", "NAME PADTHICKNESS", contact_cards::interaction, "what acts in [[contacts]]"),
+    read("SURFACE INTERACTION", "NAME", contact_cards::interaction, "what acts in [[contacts]]"),
     read(
         "SURFACE BEHAVIOR",
-        "PRESSUREOVERCLOSURE AUGMENTEDLAGRANGE PENALTY DIRECT NOSEPARATION",
+        "PRESSURE-OVERCLOSURE AUGMENTEDLAGRANGE PENALTY DIRECT NOSEPARATION",
         contact_cards::behavior,
         "[[contacts]] stiffness, which rdsolve chooses",
     ),

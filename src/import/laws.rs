@@ -73,7 +73,7 @@ impl Build<'_, '_, '_> {
     fn points(&mut self, history: &[InStep]) -> Vec<[f64; 2]> {
         let (mut points, mut value) = (vec![[0.0, 0.0]], 0.0);
         let (mut refused, mut drawn) = (Vec::new(), Vec::new());
-        let mut followed: Option<(AmplitudeCard, f64)> = None;
+        let mut followed: Option<(AmplitudeCard, f64, usize)> = None;
         let mut add = |t: f64, value: f64| match points.last_mut() {
             Some(last) if t <= last[0] => last[1] = value,
             _ => points.push([t, value]),
@@ -85,22 +85,22 @@ impl Build<'_, '_, '_> {
             let soon = if start > 0.0 { start + JUMP * stage.duration } else { 0.0 };
             if let InStep::Begins(GivenValue { value: to, amplitude: Some(name), line }) = state {
                 let card = self.im.amplitudes.iter().rfind(|card| card.name.to_lowercase() == name.to_lowercase());
-                match card {
-                    None => refused.push((*line, format!("no amplitude is named `{name}`"))),
-                    Some(card) => refused.extend(unsaid(card, stage).map(|why| (*line, why.to_owned()))),
+                if card.is_none() {
+                    refused.push((*line, format!("no amplitude is named `{name}`")));
                 }
-                drawn.extend(card.and_then(|card| card.sine).map(|_| *line));
-                followed = card.map(|card| (card.clone(), *to));
-            } else if *state != InStep::Holds || followed.as_ref().is_some_and(|(card, _)| !card.is_total) {
+                followed = card.map(|card| (card.clone(), *to, *line));
+            } else if *state != InStep::Holds || followed.as_ref().is_some_and(|(card, ..)| !card.is_total) {
                 followed = None;
             }
             match (state, &followed) {
                 // Values by the time of the run go on in later steps.
-                (_, Some((card, to))) => {
+                (_, Some((card, to, line))) => {
+                    refused.extend(unsaid(card, stage).map(|why| (*line, why.to_owned())));
+                    drawn.extend(card.sine.map(|_| *line));
                     let card = if card.is_total { card.seen_from(start) } else { card.clone() };
                     for t in card.corners(stage.duration) {
                         value = to * card.at(t);
-                        add(if t == 0.0 { soon } else { start + t }, value);
+                        add(if t == 0.0 && *state != InStep::Holds { soon } else { start + t }, value);
                     }
                 }
                 (InStep::Holds, None) => {}
@@ -117,7 +117,9 @@ impl Build<'_, '_, '_> {
             }
             add(end, value);
         }
+        refused.dedup();
         refused.into_iter().for_each(|(line, why)| self.im.refuse(line, &why));
+        drawn.dedup();
         drawn.into_iter().for_each(|line| self.im.change(line, "a periodic amplitude is a table of 200 points a step"));
         points
     }
@@ -202,9 +204,8 @@ impl Build<'_, '_, '_> {
 /// Why a table over all steps cannot hold an amplitude of one of them.
 fn unsaid(card: &AmplitudeCard, stage: &StageOfStep) -> Option<&'static str> {
     let periods = card.sine.map_or(0.0, |[frequency, ..]| frequency * stage.duration);
-    (periods > MOST_PERIODS).then_some(
-        "a periodic amplitude has too many periods here for a table of points: give it a file of one step",
-    )
+    (periods > MOST_PERIODS)
+        .then_some("a periodic amplitude has too many periods here for a table of points: give it a file of one step")
 }
 
 /// The line of the procedure of a step.

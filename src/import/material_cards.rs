@@ -4,6 +4,7 @@ use crate::deck_text::{DeckTable, inline, list, number, vector};
 use crate::file_content::MaterialCard;
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
+use base::text_file::Word;
 
 /// `*MATERIAL`.
 pub fn material(im: &mut Importer, block: &KeywordBlock) {
@@ -102,10 +103,13 @@ pub fn damping(im: &mut Importer, block: &KeywordBlock) {
     let line = block.keyword.line;
     let mut read = |name: &str| match block.keyword.value(name) {
         None => 0.0,
-        Some(text) => text.parse().unwrap_or_else(|_| {
-            im.refuse(line, &format!("{name} must be a number"));
-            0.0
-        }),
+        Some(text) => {
+            let number = Word { bytes: text.as_bytes(), column: 0, line }.fortran_number();
+            number.filter(|number| number.is_finite() && *number >= 0.0).unwrap_or_else(|| {
+                im.refuse(line, &format!("{name} must be a number, 0 or more"));
+                0.0
+            })
+        }
     };
     let damping = [read("ALPHA"), read("BETA")];
     if [read("STRUCTURAL"), read("COMPOSITE")] != [0.0; 2] {

@@ -1,8 +1,8 @@
 //! Beams, bars and shells: elements with one section, cut where loads or rigid bodies end.
 
 use crate::build::Build;
-use crate::deck_text::{DeckTable, inline, list, number, quoted, vector};
 use crate::contacts;
+use crate::deck_text::{DeckTable, inline, list, number, quoted, vector};
 use crate::dialect::Dialect;
 use crate::element_types::ElementUse;
 use crate::file_content::{SectionCard, SectionOf, SectionValue};
@@ -389,9 +389,7 @@ fn beams_beside(
 fn damped(build: &Build, card: &SectionCard, table: DeckTable) -> DeckTable {
     let of = build.im.materials.find(&card.material).and_then(|material| material.damping);
     match of.filter(|_| !harmonics::replaces_damping(build.im)) {
-        Some([alpha, beta]) => {
-            table.value("damping", inline(&[("alpha", number(alpha)), ("beta", number(beta))]))
-        }
+        Some([alpha, beta]) => table.value("damping", inline(&[("alpha", number(alpha)), ("beta", number(beta))])),
         None => table,
     }
 }

@@ -5,7 +5,7 @@ use crate::deck_text::{DeckTable, inline, number, vector};
 use crate::dialect::Dialect;
 use crate::edge_loads;
 use crate::element_types::ElementUse;
-use crate::file_content::SpreadLine;
+use crate::file_content::{SpreadLine, StepCard};
 use crate::loads::{in_time, lines_of, refuse_two_laws};
 use crate::part_piece::PartPiece;
 use crate::scopes::NamedTarget;
@@ -200,7 +200,7 @@ fn surface(build: &mut Build, line: &SpreadLine, law: &TimeLaw, lines: &[usize])
         let is_face = ["SPOS", "SNEG", ""].contains(&&side[..]);
         if !is_face || !["P", "TRVEC"].contains(&&line.kind[..]) {
             let about = format!(
-                "of loads on surfaces P and TRVEC on SPOS or SNEG are translated, and loads along edges, not {} on {side}",
+                "rdsolve has no {} on {side}: give P or TRVEC on SPOS or SNEG, or a load along edges",
                 line.kind
             );
             return build.im.refuse(line.line, &about);
@@ -233,8 +233,11 @@ fn traction(build: &mut Build, line: &SpreadLine) -> Option<Vec3> {
 
 /// Tells that a load keeps its direction where the other program turns it.
 pub fn keeps_direction(build: &mut Build, line: &SpreadLine) {
-    if !line.is_fixed && build.im.steps.list.iter().any(|step| step.is_nonlinear) {
-        build.im.change(line.line, "this load keeps its direction; without FOLLOWER=NO the other program turns it");
+    let is_fixed = line.is_fixed && ["TRVEC", "EDLD"].iter().any(|kind| line.kind.starts_with(kind));
+    let is_here = |step: &&StepCard| step.spread.iter().any(|other| other.line == line.line);
+    if !is_fixed && build.im.steps.list.iter().find(is_here).is_some_and(|step| step.is_nonlinear) {
+        let how = "this load keeps the direction of the undeformed shape, and errs by the angle of rotation; rotations below 0.01 rad change it by 1 %";
+        build.im.change(line.line, how);
     }
 }
 

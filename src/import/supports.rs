@@ -16,6 +16,8 @@ enum HeldAs {
     Fixed,
     /// Moved: scale, amplitude, and the quantity of the amplitude.
     Moved(f64, Option<String>, &'static str),
+    /// Led from where it is to a displacement, over its first stage.
+    Led(f64),
 }
 
 /// A degree of freedom and the stages of its support.
@@ -57,7 +59,7 @@ pub fn supports(build: &mut Build) {
             .iter()
             .filter_map(|state| if let InStep::Begins(given) = state { Some(given.line) } else { None })
             .collect();
-        let held = held(build, history, &by_line);
+        let held = held(build, history, dof, &by_line);
         let entry = of_node.entry(node).or_default();
         entry.held[dof] = held;
         entry.lines.extend(lines);
@@ -103,7 +105,7 @@ fn given(build: &mut Build, line: &SupportLine) -> Vec<GivenFreedom> {
 }
 
 /// The support of one degree of freedom.
-fn held(build: &mut Build, mut history: Vec<InStep>, lines: &HashMap<usize, SupportLine>) -> Option<Held> {
+fn held(build: &mut Build, mut history: Vec<InStep>, dof: usize, lines: &HashMap<usize, SupportLine>) -> Option<Held> {
     let is_fixed = |given: &GivenValue| lines.get(&given.line).is_some_and(|line| line.is_fixed);
     for at in 1..history.len() {
         if let InStep::Begins(given) = &history[at]
@@ -120,9 +122,17 @@ fn held(build: &mut Build, mut history: Vec<InStep>, lines: &HashMap<usize, Supp
         _ => true,
     });
     if first > 0 && !is_fixed(&start) {
+        let stage = |at: &usize| &build.timeline.stages[*at];
+        let is_still = build.timeline.general[first..].iter().all(|at| !stage(at).is_dynamic);
+        let goes_on = history[first + 1..].iter().all(|state| *state == InStep::Holds);
+        let is_plain =
+            start.amplitude.is_none() && lines.get(&start.line).is_some_and(|line| line.history == "displacement");
+        if dof < 3 && is_still && goes_on && is_plain && build.timeline.is_staged() {
+            return Some((HeldAs::Led(start.value), build.timeline.from(first)));
+        }
         build.im.refuse(
             start.line,
-            "a degree of freedom that was free before is held where it is found, not at a value: say FIXED",
+            "a rotation, or a displacement before motion in time, that was free before is held where it is found, not at a value: say FIXED",
         );
         return None;
     }
@@ -218,6 +228,7 @@ fn write(build: &mut Build, group: Alike, targets: &[NamedTarget]) {
                 Some(HeldAs::Moved(scale, amplitude, kind)) => {
                     Some((DEGREES[dof], motion(*scale, amplitude.as_ref(), kind)))
                 }
+                Some(HeldAs::Led(value)) => Some((DEGREES[dof], inline(&[("to", number(*value))]))),
                 _ => None,
             })
             .collect();

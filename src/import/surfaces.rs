@@ -1,9 +1,12 @@
 //! Surfaces: sets of nodes, faces of elements and edges of shells under one name.
 
 use crate::build::Build;
+use crate::edge_loads::along_edge;
 use crate::scopes::{Members, NamedTarget};
+use base::math::Vec3;
 use base::math::curved_faces::corners;
-use std::collections::BTreeSet;
+use base::math::quadrature::gauss;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The sets of a surface with their sides; a set of nodes is a surface too. Refuses other names.
 pub fn lines(build: &mut Build, surface: &NamedTarget) -> Option<Vec<(NamedTarget, String)>> {
@@ -35,6 +38,67 @@ pub fn nodes_of(build: &mut Build, surface: &NamedTarget) -> Option<BTreeSet<u64
         }
     }
     Some(nodes)
+}
+
+/// The weights of the nodes of a surface: 1 in sets of nodes, their shares of the faces or edges in others. True where faces of second degree
+/// share out their area evenly.
+pub fn weights_of(build: &mut Build, surface: &NamedTarget) -> Option<(BTreeMap<u64, f64>, bool)> {
+    let (mut weights, mut seen, mut is_even) = (BTreeMap::new(), BTreeSet::new(), false);
+    for (set, side) in lines(build, surface)? {
+        if side == "NODE" {
+            build.nodes(&set).into_iter().for_each(|node| *weights.entry(node).or_insert(0.0) = 1.0);
+            continue;
+        }
+        for at in build.cells(&set) {
+            let nodes = build.mesh.cells[at].nodes.clone();
+            let of_edge = edge(&side, nodes.len());
+            if !seen.insert((at, of_edge.clone())) {
+                continue;
+            }
+            let x: Vec<Vec3> = nodes.iter().map(|id| build.mesh.x(*id)).collect();
+            let mut add = |k: usize, weight: f64| *weights.entry(nodes[k]).or_insert(0.0) += weight;
+            match of_edge {
+                Some(of_edge) => {
+                    let of_nodes: Vec<Vec3> = of_edge.iter().map(|k| x[*k]).collect();
+                    for (shares, slope) in along_edge(&of_nodes) {
+                        of_edge.iter().zip(shares).for_each(|(k, share)| add(*k, share * slope.norm()));
+                    }
+                }
+                None => {
+                    is_even |= nodes.len() > corners(nodes.len());
+                    shares_of_face(&x).into_iter().enumerate().for_each(|(k, share)| add(k, share));
+                }
+            }
+        }
+    }
+    Some((weights, is_even))
+}
+
+/// The shares of the nodes of a face in its area: of a quadrilateral ∫ N dA by four points, of others even ones.
+fn shares_of_face(x: &[Vec3]) -> Vec<f64> {
+    let area = |a: &Vec3, b: &Vec3, c: &Vec3| 0.5 * (b - a).cross(&(c - a)).norm();
+    match x {
+        [a, b, c, d] => {
+            let (places, _) = gauss(2);
+            let mut shares = vec![0.0; 4];
+            for (r, s) in places.iter().flat_map(|r| places.iter().map(move |s| (r, s))) {
+                let along = (b - a) * (1.0 - s) + (c - d) * (1.0 + s);
+                let across = (d - a) * (1.0 - r) + (c - b) * (1.0 + r);
+                let size = along.cross(&across).norm() / 16.0;
+                let n = [(1.0 - r) * (1.0 - s), (1.0 + r) * (1.0 - s), (1.0 + r) * (1.0 + s), (1.0 - r) * (1.0 + s)];
+                shares.iter_mut().zip(n).for_each(|(share, n)| *share += 0.25 * n * size);
+            }
+            shares
+        }
+        [a, b, c] => vec![area(a, b, c) / 3.0; 3],
+        _ => {
+            let whole = match corners(x.len()) {
+                3 => area(&x[0], &x[1], &x[2]),
+                _ => area(&x[0], &x[1], &x[2]) + area(&x[0], &x[2], &x[3]),
+            };
+            vec![whole / x.len() as f64; x.len()]
+        }
+    }
 }
 
 /// The sets of nodes of a surface, by which the deck names them.

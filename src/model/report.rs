@@ -237,7 +237,7 @@ impl<'d> Report<'d> {
         let here = |table: &Option<Span>| table.as_ref().is_none_or(|table| table == owner.span);
         let unreadable = spoiled.iter().filter(|entry| here(&entry.table)).map(|entry| entry.key.as_str());
         let mut given = Given::new(&owner.what, owner.span, values, unreadable.collect());
-        given.reject_others(kind, what);
+        given.reject_others(kind, what, |key| deck::kinds_with(kind, key));
         let value = read(&mut given);
         self.problems.extend(given.problems);
         value

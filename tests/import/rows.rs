@@ -386,7 +386,10 @@ fn several_steps() {
     let freed = "*END STEP\n*STEP, NLGEOM\n*STATIC\n1., 2.\n*BOUNDARY, OP=NEW\n1, 1, 3\n*END STEP\n";
     has(BEAM, &two(freed), None, "at = \"mesh.1\"\nfix = \"rotations\"\nstages = \"step_1\"\n");
     let late = "*END STEP\n*STEP, NLGEOM\n*STATIC\n1., 2.\n*BOUNDARY\n2, 3\n*END STEP\n";
-    refuses(BEAM, &two(late), "say FIXED");
+    // From where it is found at t = 1 back to its place, as the file has it.
+    has(BEAM, &two(late), None, "at = \"mesh.2\"\nmotion = { uz = { to = 0.0 } }\nstages = \"step_2\"\n");
+    refuses(BEAM, &[("*END STEP\n", &late.replace("2, 3\n", "2, 5\n"))], "say FIXED");
+    refuses(BEAM, &[("*END STEP\n", &late.replace("*STATIC", "*DYNAMIC"))], "say FIXED");
     has(
         BEAM,
         &[("*END STEP\n", &late.replace("*BOUNDARY", "*BOUNDARY, FIXED"))],
@@ -596,7 +599,12 @@ fn velocities_damping_and_output() {
         None,
         "[[initial]]\nat = \"tip\"\nvelocity = [0.0, 0.0, -2.0]\n",
     );
-    has(BEAM, &[("*DENSITY", "*DAMPING, ALPHA=0.1, BETA=0.2\n*DENSITY")], None, "damping = { alpha = 0.1, beta = 0.2 }\n");
+    has(
+        BEAM,
+        &[("*DENSITY", "*DAMPING, ALPHA=0.1, BETA=0.2\n*DENSITY")],
+        None,
+        "damping = { alpha = 0.1, beta = 0.2 }\n",
+    );
     // Materials with and without damping stand side by side.
     let second = "*MATERIAL, NAME=n\n*ELASTIC\n1e9, 0.3\n*MATERIAL, NAME=m\n*DAMPING, BETA=0.2\n";
     has(BEAM, &[("*MATERIAL, NAME=m\n", second)], None, "damping = { alpha = 0.0, beta = 0.2 }\n");

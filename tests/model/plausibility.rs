@@ -143,6 +143,9 @@ fn tables_that_do_not_reach_the_ends_of_the_run_say_what_holds() {
     assert_eq!([value(0.1), value(0.2), value(0.35), value(0.7)], [0.0, 1.0, 1.5, 0.0]);
     let late = pushed("[[0.0, 0.0], [1.0, 2.0]]", "").replace("points = [[0.0, 0.0], [1.0, 2.0]]", "start = 2.0");
     says(&late.replace("\"table\"", "\"step\""), Severity::Warning, &["`push` is zero to the end"]);
+    let waits = pushed("[[0.0, 0.0], [1.5, 0.0], [2.0, 3.0]]", "");
+    says(&waits, Severity::Warning, &["`push` is zero to the end", "it starts at 1.5"]);
+    says(&pushed("[[0.0, 0.0], [1.0, 0.0]]", ""), Severity::Warning, &["`push` is zero from 0 to the end"]);
 }
 
 const CORNER: &str = "[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\nb2 = [1.0, 0.0, 0.0]\nc = [1.0, 1.0, 0.0]\n";

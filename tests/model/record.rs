@@ -336,3 +336,32 @@ fn records_of_a_whole_folder_are_read_as_they_were_written() {
         assert_eq!(found.unit, Some(RecordUnit::new(unit)), "{file}\n{text}");
     }
 }
+
+/// The unit of a column stands in its name, or in a line below the names.
+#[test]
+fn columns_name_their_units() {
+    let unit = |text: &str, column: u64| {
+        let columns = [RecordColumn::Number(1), RecordColumn::Number(column)];
+        read("r.csv", text.as_bytes(), &select(&columns, None)).unwrap().unit
+    };
+    let named = "Time (s),Acc X (g),u [mm]\n0,1,2\n1,3,4\n";
+    assert_eq!(unit(named, 2), Some(RecordUnit::new("g")));
+    assert_eq!(unit(named, 3).unwrap().known, Some((MotionQuantity::Displacement, 1e-3)));
+    let below = "time,acceleration\ns,m/s\u{b2}\n0,1\n1,3\n";
+    assert_eq!(unit(below, 2).unwrap().known, Some((MotionQuantity::Acceleration, 1.0)));
+    assert_eq!(points(below, &select(&[], None)), [[0.0, 1.0], [1.0, 3.0]]);
+    // A name alone is no unit, nor is a word in brackets that is none.
+    assert_eq!(unit("t,g\n0,1\n1,3\n", 2), None);
+    assert_eq!(unit("t,a (raw)\n0,1\n1,3\n", 2), None);
+}
+
+/// Files of other data bases are named, with the way round.
+#[test]
+fn files_that_are_not_read_are_named() {
+    for (first, kind) in
+        [("Corrected acceleration   (Format v01.20 with 13 text lines)", "COSMOS"), ("2 CORRECTED ACCELEROGRAM", "SMC")]
+    {
+        let said = faults(&format!("{first}\n1 2 3\n"), &select(&[], None));
+        assert_eq!(said, [format!("this is a file of {kind}, which rdsolve does not read")]);
+    }
+}

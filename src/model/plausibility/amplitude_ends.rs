@@ -21,6 +21,10 @@ pub fn check_amplitude_ends(deck: &Deck, amplitudes: &[Amplitude], end_time: f64
         if !used.contains(name.as_str()) {
             continue;
         }
+        if let Some(message) = zero_throughout(&name.value, amplitude, end_time) {
+            report.warn(&name.span, message, "let the run last longer, or the amplitude begin earlier");
+            continue;
+        }
         match amplitude {
             Amplitude::Table(_) | Amplitude::Curve(_) => {
                 let points = amplitude.points().unwrap_or_default();
@@ -52,21 +56,21 @@ pub fn check_amplitude_ends(deck: &Deck, amplitudes: &[Amplitude], end_time: f64
                     report.warn(&name.span, message, hint);
                 }
             }
-            Amplitude::Sine { start, .. }
-            | Amplitude::SineSquared { start, .. }
-            | Amplitude::Ramp { start, .. }
-            | Amplitude::Step { start, .. } => {
-                if *start >= end_time - slack {
-                    let message = format!(
-                        "amplitude `{}` is zero to the end of the run: it starts at {}, and the run ends at {}",
-                        name.value,
-                        short(*start),
-                        short(end_time)
-                    );
-                    report.warn(&name.span, message, "let the run last longer, or `start` come earlier");
-                }
-            }
-            Amplitude::Constant | Amplitude::Harmonic { .. } => {}
+            _ => {}
         }
     }
+}
+
+/// The message on an amplitude that is zero from 0 to the end.
+fn zero_throughout(name: &str, amplitude: &Amplitude, end_time: f64) -> Option<String> {
+    let (rest, slack) = (amplitude.rest(), SAME_TIME * end_time);
+    let is_zero = amplitude.harmonic_phase().is_none() && amplitude.value(0.0) == 0.0;
+    (is_zero && end_time > 0.0 && rest >= end_time - slack).then(|| match rest.is_finite() {
+        true => format!(
+            "amplitude `{name}` is zero to the end of the run: it starts at {}, and the run ends at {}",
+            short(rest),
+            short(end_time)
+        ),
+        false => format!("amplitude `{name}` is zero from 0 to the end of the run at {}", short(end_time)),
+    })
 }

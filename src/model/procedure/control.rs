@@ -84,7 +84,12 @@ fn by_displacement<'d>(
     stop: Option<DisplacementTarget>,
     report: &mut Report<'d>,
 ) -> Option<ArcLength> {
-    report.reject_unused("`control = \"displacement\"`, whose steps are equal", &keys!(analysis; steps, growth));
+    report.reject_unused("`control = \"displacement\"`, whose steps are equal", &keys!(analysis; growth));
+    if let Some(steps) = analysis.steps.as_ref().filter(|steps| steps.value > 0) {
+        let end = stop.as_ref().map_or(1.0, |stop| stop.value.abs());
+        let hint = format!("increment = {} makes {} steps", short(end / steps.value as f64), steps.value);
+        report.error_with::<()>(&steps.span, "`steps` does not apply to `control = \"displacement\"`", hint);
+    }
     if analysis.stop.is_none() && !report.is_spoiled(&control.span, "stop") {
         let hint = "such as stop = { at = \"roof\", quantity = \"ux\", value = 0.3 }";
         return report.error_with(

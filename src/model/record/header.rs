@@ -62,6 +62,26 @@ pub fn find(path: &str, bytes: &[u8]) -> Result<Option<Header>, Fault> {
     Ok(found.header())
 }
 
+/// Reports files of data bases whose numbers are not those of one record alone: COSMOS and SMC.
+pub fn unread(path: &str, bytes: &[u8]) -> Option<Fault> {
+    let mut text = Text::new(path, bytes);
+    let line = text.line()?;
+    let words = String::from_utf8_lossy(line.bytes).to_ascii_uppercase();
+    let kind = match () {
+        () if words.contains("(FORMAT V") => "COSMOS",
+        () if words
+            .trim_start_matches(|c: char| c.is_ascii_digit() || c == ' ')
+            .trim_end()
+            .ends_with("CORRECTED ACCELEROGRAM") =>
+        {
+            "SMC"
+        }
+        () => return None,
+    };
+    let fault = text.fault(format!("this is a file of {kind}, which rdsolve does not read"), line.number);
+    Some(Box::new(fault.hint("write its accelerations to a file of one column, and give `time_step` and `unit`")))
+}
+
 /// True for a line that has a word or a name before a colon.
 fn is_text(words: &str) -> bool {
     words.contains(':') || words.as_bytes().windows(2).any(|pair| pair.iter().all(u8::is_ascii_alphabetic))

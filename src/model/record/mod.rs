@@ -62,6 +62,9 @@ pub fn read(path: &str, bytes: &[u8], selection: &RecordSelection) -> Result<Tim
 fn read_text(path: &str, bytes: &[u8], selection: &RecordSelection) -> Result<TimeSeries, Vec<Fault>> {
     let text = Text::new(path, bytes);
     let header = header::find(path, bytes).map_err(|fault| vec![fault])?;
+    if let Some(fault) = header::unread(path, bytes).filter(|_| header.is_none()) {
+        return Err(vec![fault]);
+    }
     let is_in_rows = selection.rows.unwrap_or(header.is_some() && selection.columns.is_empty());
     let is_bare = selection.columns.is_empty() && selection.time_step.is_none();
     if is_bare && header.is_none() && is_of_peer(path) {
@@ -116,11 +119,12 @@ fn read_columns(
     unit: Option<RecordUnit>,
 ) -> Result<TimeSeries, Vec<Fault>> {
     text.skip_to(last);
-    let mut reader = Reader { text, separator: None, faults: Vec::new(), columns: 0, last, blank: 0, jumps: None };
+    let mut reader =
+        Reader { text, separator: None, faults: Vec::new(), columns: 0, last, blank: 0, jumps: None, unit: None };
     let points = reader.points(selection);
     if reader.faults.is_empty() {
         let sequence = reader.jumps.filter(Jumps::is_sequence).map(|_| reader.columns);
-        return Ok(TimeSeries { points, unit, offset: None, sequence });
+        return Ok(TimeSeries { points, unit: unit.or(reader.unit), offset: None, sequence });
     }
     Err(reader.faults)
 }
@@ -152,6 +156,8 @@ struct Reader<'t> {
     blank: usize,
     /// Statistics on a file without column names, to detect a column that is part of a sequence.
     jumps: Option<Jumps>,
+    /// The unit that the name of the value's column, or the line below the names, gives it.
+    unit: Option<RecordUnit>,
 }
 
 /// The places of the wanted columns in a line, from 0.
@@ -162,7 +168,7 @@ struct Places {
 
 impl<'t> Reader<'t> {
     fn points(&mut self, selection: &RecordSelection) -> Vec<[f64; 2]> {
-        let Some((names, mut line)) = self.begin() else { return Vec::new() };
+        let Some((names, units, mut line)) = self.begin() else { return Vec::new() };
         let count = self.split(line).len();
         if !names.is_empty() && names.len() != count {
             let message = format!("the line of names has {} columns, that of numbers {count}", names.len());
@@ -177,6 +183,8 @@ impl<'t> Reader<'t> {
                 return Vec::new();
             }
         };
+        let in_name = names.get(places.value).filter(|name| name.contains(['(', '[']));
+        self.unit = units.get(places.value).or(in_name).and_then(|name| unit_in(name));
         let may_be_sequence = selection.rows.is_none() && names.is_empty() && count > 2 && places.time.is_none();
         self.jumps = may_be_sequence.then(Jumps::default);
         let mut points: Vec<[f64; 2]> = Vec::with_capacity(self.text.bytes.len() / (line.bytes.len() + 1) + 1);
@@ -193,8 +201,8 @@ impl<'t> Reader<'t> {
         points
     }
 
-    /// Finds the names of columns, none where the file has none, and the first line of numbers.
-    fn begin(&mut self) -> Option<(Vec<String>, TextLine<'t>)> {
+    /// Finds the names of columns and a line of units below them, none where the file has none, and the first line of numbers.
+    fn begin(&mut self) -> Option<(Vec<String>, Vec<String>, TextLine<'t>)> {
         let Some(first) = self.next_line() else {
             self.faults.push(self.text.fault("the file has no lines of numbers", 1));
             return None;
@@ -207,10 +215,20 @@ impl<'t> Reader<'t> {
             text.contains(char::is_alphabetic) && text.parse::<f64>().is_err() && word.number().is_none()
         };
         if !words.iter().all(is_name) {
-            return Some((Vec::new(), first));
+            return Some((Vec::new(), Vec::new(), first));
         }
-        let names = words.iter().map(|word| word.text().trim_matches(['"', '\'', ' ']).to_owned()).collect();
-        let Some(line) = self.next_line() else {
+        let texts = |words: &[Word]| -> Vec<String> {
+            words.iter().map(|word| word.text().trim_matches(['"', '\'', ' ']).to_owned()).collect()
+        };
+        let names = texts(&words);
+        let (mut next, mut units) = (self.next_line(), Vec::new());
+        if let Some(line) = next
+            && self.split(line).iter().all(is_name)
+        {
+            units = texts(&self.split(line));
+            next = self.next_line();
+        }
+        let Some(line) = next else {
             self.faults.push(self.text.fault_at_end("the file has a line of names and no numbers"));
             return None;
         };
@@ -218,7 +236,7 @@ impl<'t> Reader<'t> {
         if separator(line) != self.separator && self.split(line).len() == 1 {
             self.separator = separator(line);
         }
-        Some((names, line))
+        Some((names, units, line))
     }
 
     /// The next line that is no comment.
@@ -329,6 +347,12 @@ impl<'t> Reader<'t> {
         self.faults.push(fault);
         None
     }
+}
+
+/// The unit that a name ends with, such as "Acc (g)" or "a [m/s^2]", or that it is.
+fn unit_in(name: &str) -> Option<RecordUnit> {
+    let inner = name.rsplit(['(', '[']).next()?.trim_matches([')', ']', ' ']);
+    Some(RecordUnit::new(inner)).filter(|unit| unit.known.is_some())
 }
 
 /// The separator of the columns of a line; `None` for blanks.

@@ -51,7 +51,8 @@ impl RecordUnit {
 }
 
 fn known(name: &str) -> Option<(MotionQuantity, f64)> {
-    match name {
+    let name = &name.replace('²', "2");
+    match name.as_str() {
         "G" | "G'S" | "GS" => return Some((MotionQuantity::Acceleration, G)),
         "GAL" | "GALS" => return Some((MotionQuantity::Acceleration, 0.01)),
         _ => {}

@@ -37,11 +37,16 @@ impl<'t> Given<'t> {
         self.values
     }
 
-    /// Reports keys that `kind` does not allow; `what` is an object of that kind.
-    pub fn reject_others<M>(&mut self, kind: &Kind<M>, what: &str) {
+    /// Reports keys that `kind` does not allow; `what` is an object of that kind, `takers` the words of the kinds that allow a key.
+    pub fn reject_others<M>(&mut self, kind: &Kind<M>, what: &str, takers: impl Fn(&str) -> Vec<&'static str>) {
         for value in self.values.0.iter().filter(|value| !kind.takes(value.key)) {
             let message = format!("`{}` does not apply to {what}", value.key);
-            self.problems.push(Diagnostic::error(message).at(&value.span));
+            let problem = Diagnostic::error(message).at(&value.span);
+            let words: Vec<String> = takers(value.key).iter().map(|word| format!("\"{word}\"")).collect();
+            self.problems.push(match words.is_empty() {
+                true => problem,
+                false => problem.hint(format!("remove it; it is a key of {}", words.join(", "))),
+            });
         }
     }
 
