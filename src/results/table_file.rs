@@ -1,11 +1,12 @@
 //! A comma separated file that grows by whole rows, without allocating.
 //!
-//! Rows collect in memory and are written complete. If the file cannot grow, it is cut back to its last whole row. A killed run tears a row
-//! only if that row crosses a page of the file at that moment; readers report it. Numbers are the shortest text that reads back to the same
-//! double. The csv crate is for readers: its writer hands over whatever fills its buffer.
+//! Rows collect in memory, and one call writes all of them: a call for each page would take longer than to write the numbers. If the file
+//! cannot grow, it is cut back to its last whole row. A run that is killed during the call may tear a row; readers report it. The csv crate
+//! is for readers: its writer hands over whatever fills its buffer.
 
 use super::disk::{at, create, is_same};
 use super::table::WriteRow;
+use base::row_text::RowText;
 use base::snapshot::keep;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Seek, Write};
@@ -13,8 +14,6 @@ use std::path::{Path, PathBuf};
 
 /// The number of bytes of finished rows that do not wait for the next flush.
 const ENOUGH: usize = 1 << 16;
-/// The number of bytes that the operating system writes at a time, even if the process is killed meanwhile.
-const PAGE: usize = 1 << 12;
 
 /// A table of results that is being written.
 pub struct TableFile {
@@ -23,8 +22,7 @@ pub struct TableFile {
     /// The number of bytes in the file, all of whole rows.
     written: u64,
     /// The finished rows not yet written, and the current row.
-    rows: Vec<u8>,
-    digits: ryu::Buffer,
+    rows: RowText,
     /// The time of the row that is being written.
     time: f64,
     /// The stage that rows name; empty in a deck without stages.
@@ -69,7 +67,7 @@ impl TableFile {
         let path = dir.join(name);
         let file = create(&path).map_err(|e| at(&path, e))?;
         let mut table = TableFile::of(path, file);
-        let _ = writeln!(table.rows, "{header}");
+        table.rows.line(header);
         table.flush()?;
         Ok(table)
     }
@@ -98,8 +96,7 @@ impl TableFile {
             path,
             file,
             written: 0,
-            rows: Vec::with_capacity(2 * ENOUGH),
-            digits: ryu::Buffer::new(),
+            rows: RowText::with_capacity(2 * ENOUGH),
             time: 0.0,
             stage: String::new(),
             case: String::new(),
@@ -151,34 +148,34 @@ impl TableFile {
         self.empty
     }
 
-    /// Writes the finished rows to the file, in pieces that end with a row and lie within one page, except for a row that crosses pages.
+    /// Writes the finished rows to the file.
     ///
     /// # Errors
-    /// The file cannot grow; it then ends with its last whole row, and the rows are lost.
+    /// The file cannot grow; it then ends with the last whole row that it holds, and the rows behind it are lost.
     pub fn flush(&mut self) -> io::Result<()> {
         // A file that somebody has cut short would get a hole.
         if self.file.metadata().map_err(|error| at(&self.path, error))?.len() != self.written {
             self.rows.clear();
             return Err(self.spoiled());
         }
-        let mut from = 0;
-        let mut done = Ok(());
-        while from < self.rows.len() && done.is_ok() {
-            let rest = &self.rows[from..];
-            let room = PAGE - (self.written as usize) % PAGE;
-            let within = rest[..room.min(rest.len())].iter().rposition(|&byte| byte == b'\n');
-            let length =
-                within.or_else(|| rest.iter().position(|&byte| byte == b'\n')).map_or(rest.len(), |end| end + 1);
-            done = self.file.write_all(&rest[..length]);
-            if done.is_ok() {
-                (self.written, from) = (self.written + length as u64, from + length);
-            } else {
-                // The part of a row is cut off; a shorter file always has room.
-                let _ = self.file.set_len(self.written);
-            }
-        }
+        let rows = self.rows.bytes();
+        let done = self.file.write_all(rows);
+        self.written += match &done {
+            Ok(()) => rows.len() as u64,
+            Err(_) => self.cut_back(),
+        };
         self.rows.clear();
         done.map_err(|e| at(&self.path, e))
+    }
+
+    /// Removes the part of a row at the end of a file that could not grow, and returns the number of bytes of whole rows that it has grown by.
+    fn cut_back(&mut self) -> u64 {
+        let grown = self.file.metadata().map_or(0, |file| file.len().saturating_sub(self.written)) as usize;
+        let taken = &self.rows.bytes()[..grown.min(self.rows.bytes().len())];
+        let whole = taken.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end as u64 + 1);
+        // A shorter file always has room.
+        let _ = self.file.set_len(self.written + whole);
+        whole
     }
 
     /// Checks that the file still has its name and holds the written rows, nothing more.
@@ -202,57 +199,42 @@ impl TableFile {
 
 impl WriteRow for TableFile {
     fn row(&mut self, step: usize, time: f64) -> &mut dyn WriteRow {
-        let _ = write!(self.rows, "{step}"); // a Vec takes every byte
+        self.rows.begin(step);
         self.time = time;
         self.number(time);
-        if !self.stage.is_empty() {
-            let stage = std::mem::take(&mut self.stage);
-            self.text(&stage);
-            self.stage = stage;
-        }
-        if !self.case.is_empty() {
-            let case = std::mem::take(&mut self.case);
-            self.text(&case);
-            self.case = case;
+        for name in [&self.stage, &self.case] {
+            if !name.is_empty() {
+                self.rows.text(name);
+            }
         }
         self
     }
 
     fn count(&mut self, value: usize) -> &mut dyn WriteRow {
-        let _ = write!(self.rows, ",{value}");
+        self.rows.count(value);
         self
     }
 
     fn number(&mut self, value: f64) -> &mut dyn WriteRow {
-        self.rows.push(b',');
-        if value.is_finite() {
-            self.rows.extend_from_slice(self.digits.format_finite(value).as_bytes());
-        } else {
-            self.empty.get_or_insert(EmptyFields { since: self.time, count: 0 }).count += 1;
-        }
-        self
+        self.numbers(&[value])
     }
 
     fn numbers(&mut self, values: &[f64]) -> &mut dyn WriteRow {
-        for value in values {
-            self.number(*value);
+        let empty = self.rows.numbers(values);
+        if empty > 0 {
+            self.empty.get_or_insert(EmptyFields { since: self.time, count: 0 }).count += empty;
         }
         self
     }
 
     fn text(&mut self, text: &str) -> &mut dyn WriteRow {
-        self.rows.push(b',');
-        if text.contains([',', '"', '\n', '\r']) {
-            let _ = write!(self.rows, "\"{}\"", text.replace('"', "\"\""));
-        } else {
-            self.rows.extend_from_slice(text.as_bytes());
-        }
+        self.rows.text(text);
         self
     }
 
     fn end(&mut self) -> io::Result<()> {
-        self.rows.push(b'\n');
-        if self.rows.len() < ENOUGH { Ok(()) } else { self.flush() }
+        self.rows.end();
+        if self.rows.bytes().len() < ENOUGH { Ok(()) } else { self.flush() }
     }
 }
 
@@ -374,6 +356,21 @@ mod tests {
         TableFile::open(dir.path(), "t.csv", "step,time").unwrap();
         assert_eq!(std::fs::read_to_string(dir.path().join("mine")).unwrap(), "kept");
         assert_eq!(std::fs::read_to_string(dir.path().join("t.csv")).unwrap(), "step,time\n");
+    }
+
+    #[test]
+    fn a_file_that_cannot_grow_ends_with_a_whole_row() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("t.csv");
+        for (grown, rows) in [("", 0), ("1,0", 0), ("1,0.5\n", 1), ("1,0.5\n2,0.5\n3", 2), ("1,0.5\n2,0.5\n3,0.5\n", 3)] {
+            let mut table = TableFile::open(dir.path(), "t.csv", "step,time").unwrap();
+            (1..4).for_each(|step| table.row(step, 0.5).end().unwrap());
+            // The disk takes a part of the rows.
+            OpenOptions::new().append(true).open(&path).unwrap().write_all(grown.as_bytes()).unwrap();
+            assert_eq!(table.cut_back(), 6 * rows);
+            let text = std::fs::read_to_string(&path).unwrap();
+            assert_eq!(text, ["step,time\n", &grown[..6 * rows as usize]].concat());
+        }
     }
 
     #[test]

@@ -1,9 +1,6 @@
 //! Numbers and texts as cells of tables.
 
-/// The shortest text that reads back to the same number.
-pub fn float(number: f64) -> String {
-    ryu::Buffer::new().format(number).to_owned()
-}
+pub use base::row_text::shortest as float;
 
 /// Seconds to three digits.
 pub fn seconds(seconds: f64) -> String {

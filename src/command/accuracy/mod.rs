@@ -49,9 +49,8 @@ pub fn settle(
     threads: usize,
     stop: &AtomicBool,
 ) -> Result<(Loaded, Option<ChosenSettings>), (Vec<Diagnostic>, Source)> {
-    let (Some(asked), (Some(deck), _)) = (loaded.model.analysis.accuracy, deck::read(&loaded.source)) else {
-        return Ok((loaded, None));
-    };
+    let Some(asked) = loaded.model.analysis.accuracy else { return Ok((loaded, None)) };
+    let (Some(deck), _) = deck::read(&loaded.source) else { return Ok((loaded, None)) };
     let chosen = choose(&loaded, &deck, asked, (threads, stop));
     let sets: Vec<String> =
         loaded.source.sets.iter().map(|(_, set)| set).chain(&chosen.report.settings).cloned().collect();
