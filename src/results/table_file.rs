@@ -362,7 +362,8 @@ mod tests {
     fn a_file_that_cannot_grow_ends_with_a_whole_row() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("t.csv");
-        for (grown, rows) in [("", 0), ("1,0", 0), ("1,0.5\n", 1), ("1,0.5\n2,0.5\n3", 2), ("1,0.5\n2,0.5\n3,0.5\n", 3)] {
+        for (grown, rows) in [("", 0), ("1,0", 0), ("1,0.5\n", 1), ("1,0.5\n2,0.5\n3", 2), ("1,0.5\n2,0.5\n3,0.5\n", 3)]
+        {
             let mut table = TableFile::open(dir.path(), "t.csv", "step,time").unwrap();
             (1..4).for_each(|step| table.row(step, 0.5).end().unwrap());
             // The disk takes a part of the rows.
