@@ -168,7 +168,7 @@ impl TableFile {
         done.map_err(|e| at(&self.path, e))
     }
 
-    /// Removes the part of a row at the end of a file that could not grow, and returns the number of bytes of whole rows that it has grown by.
+    /// Cuts a file that could not grow back to whole rows, and returns the number of bytes that it has gained.
     fn cut_back(&mut self) -> u64 {
         let grown = self.file.metadata().map_or(0, |file| file.len().saturating_sub(self.written)) as usize;
         let taken = &self.rows.bytes()[..grown.min(self.rows.bytes().len())];
