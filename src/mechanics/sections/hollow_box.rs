@@ -161,7 +161,6 @@ impl SectionShape for RoundedBox {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::sections::tests::{close, hollow_box};
 
     /// EN 10210-2 for SHS 100×100×5: I_t = 439 cm⁴ with corners of middle radius 1.25 t. The formula reproduces the standard's three digits

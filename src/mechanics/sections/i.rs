@@ -179,7 +179,6 @@ impl SectionShape for RolledI {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::sections::dimensions::rectangles;
     use crate::sections::tests::{close, i_section};
 

@@ -173,7 +173,6 @@ impl SectionShape for RolledL {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::sections::dimensions::rectangles;
     use crate::sections::tests::{angle, close};
 
