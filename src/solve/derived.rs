@@ -190,7 +190,7 @@ impl Derived {
             results::failed(system, now, &mut self.failed);
         }
         if is_wanted(Wanted::SHELLS) {
-            results::shell_states(system, model, now, &mut self.shear_balance, &mut self.shells);
+            results::shell_states(system, model, (now, threads), &mut self.shear_balance, &mut self.shells);
         }
         if drawn && is_wanted(Wanted::NODAL_RESULTANTS) {
             results::nodal_resultants(system, model, now, &mut self.nodal_resultants);

@@ -1,6 +1,6 @@
 //! Elements asked one by one, without a scene around them.
 
-use rdsolve::elements::{ElementBlock, Force};
+use rdsolve::elements::{ElementBlock, Force, ShellResultants};
 use rdsolve::math::{Vec3, rotation};
 use rdsolve::state::{Configuration, Node};
 
@@ -16,4 +16,11 @@ pub fn nudge(node: &mut Node, dof: usize, h: f64) {
     let mut d = Vec3::zeros();
     d[dof % 3] = h;
     if dof < 3 { node.x += d } else { node.rotation = rotation::exp(&d) * node.rotation }
+}
+
+/// The stress resultants of shell elements, whose nodes lay at `x`.
+pub fn resultants(block: &dyn ElementBlock, axis: &Vec3, x: &[Vec3], now: &Configuration) -> Vec<ShellResultants> {
+    let mut all = Vec::new();
+    block.resultants(axis, &|node| x[node], now, &mut |_, at| all.push(at));
+    all
 }

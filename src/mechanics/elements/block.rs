@@ -140,10 +140,15 @@ pub trait Results: Elements {
     fn point(&self, _e: usize, _point: usize, _frame: &Mat3, _now: &Configuration) -> Option<IntegrationPoint> {
         None
     }
-    /// Stress resultants of a shell element whose nodes lay at `start`. Axis 1 is `axis` projected on the surface at t = 0; if `axis` is
-    /// normal to the surface, the global axis farthest from the normal is projected.
-    fn resultants(&self, _e: usize, _axis: &Vec3, _start: &[Vec3], _now: &Configuration) -> Option<ShellResultants> {
-        None
+    /// Calls `write` with the number and the stress resultants of each shell element; nodes lay at `start`. Axis 1 is `axis` projected on
+    /// the surface at t = 0; if `axis` is normal to the surface, the global axis farthest from the normal is projected.
+    fn resultants(
+        &self,
+        _axis: &Vec3,
+        _start: &dyn Fn(usize) -> Vec3,
+        _now: &Configuration,
+        _write: &mut dyn FnMut(usize, ShellResultants),
+    ) {
     }
     /// Calls `of` for each element whose material yields and that has not failed: with its number, the strain of largest size in its
     /// surface, of Green, and whether its law is for large strains.

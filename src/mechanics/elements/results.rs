@@ -21,7 +21,7 @@ pub const MOST_LAYERS: usize = 24;
 
 /// Stress resultants of a shell element: means over its area, per length or area at t = 0, in axes that follow the surface.
 /// Moments are positive where the top, the side of the normal, is in tension; ∂M₁₁/∂1 + ∂M₁₂/∂2 = Q₁.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ShellResultants {
     /// Axis 1, axis 2 and the normal in the deformed shell; columns, global components.
     pub frame: Mat3,

@@ -61,11 +61,11 @@ pub fn failed(system: &System, now: &Configuration, out: &mut Vec<bool>) {
 pub fn shell_states(
     system: &System,
     model: &Model,
-    now: &Configuration,
+    (now, threads): (&Configuration, usize),
     balance: &mut ShearBalance,
     out: &mut Vec<ShellState>,
 ) {
-    shells::shell_states(system.shown_groups(), model, now, out);
+    shells::shell_states(system.shown_groups(), model, now, system.uses_threads(threads), out);
     balance.apply(model, out);
 }
 

@@ -1,6 +1,6 @@
 //! Elements of six and nine nodes: what one of them, and patches of a few, must do.
 
-use crate::support::blocks::{forces, nudge};
+use crate::support::blocks::{forces, nudge, resultants};
 use crate::support::random::{turn, vector};
 use nalgebra::{DMatrix, DVector};
 use rand::rngs::StdRng;
@@ -375,7 +375,6 @@ fn resultants_are_those_of_the_state() {
     let far_off = MaterialLaw::new(1e3, 0.3, Hardening::Linear { yield_stress: 1e9, modulus: 0.0 }, 0.0, None);
     for n in SIZES {
         let mesh = Mesh::flat(&mut rng, n, 0.2);
-        let start: Vec<Vec3> = mesh.elements[0].iter().map(|&a| mesh.x[a]).collect();
         let U = Mat3::new(1.1, 0.05, 0.0, 0.05, 0.9, 0.0, 0.0, 0.0, 1.0);
         let (q, shift) = (turn(&mut rng), vector(&mut rng, 3.0));
         let R = rotation::matrix(&q);
@@ -389,7 +388,7 @@ fn resultants_are_those_of_the_state() {
         ] {
             let past = vec![0.0; block.history()];
             let now = Configuration { nodes: &nodes, history: &past, dt: 0.0, previous: None };
-            let at = block.resultants(0, &Vec3::x(), &start, &now).unwrap();
+            let at = resultants(&*block, &Vec3::x(), &mesh.x, &now)[0];
             near(&at.N, &plane(green, 0.1), 1e-11);
             near(&at.M, &[0.0; 3], 1e-11);
             near(&at.Q, &[0.0; 2], 1e-11);
@@ -398,7 +397,6 @@ fn resultants_are_those_of_the_state() {
         }
         // w = −½ (κ₁₁ x² + κ₂₂ y² + 2 κ₁₂ x y) with nodes in the middles of sides.
         let mesh = Mesh::flat(&mut rng, n, 0.0);
-        let start: Vec<Vec3> = mesh.elements[0].iter().map(|&a| mesh.x[a]).collect();
         let k = [2e-8, -1e-8, 1.5e-8];
         let bent = |x: &Vec3| {
             let w = -0.5 * (k[0] * x.x * x.x + k[1] * x.y * x.y + 2.0 * k[2] * x.x * x.y);
@@ -407,7 +405,7 @@ fn resultants_are_those_of_the_state() {
         };
         let nodes: Vec<Node> = mesh.x.iter().map(bent).collect();
         let block = mesh.block(&PLATE, 0.0);
-        let at = block.resultants(0, &Vec3::x(), &start, &Configuration::of(&nodes)).unwrap();
+        let at = resultants(&*block, &Vec3::x(), &mesh.x, &Configuration::of(&nodes))[0];
         let wanted = plane(k, 1e-3 / 12.0);
         near(&at.M, &wanted, 1e-6 * wanted[0].abs());
         near(&at.N, &[0.0; 3], 1e-12);

@@ -2,6 +2,7 @@
 
 use super::benchmarks::read;
 use crate::support;
+use crate::support::blocks::resultants;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::heat::Heat;
@@ -47,9 +48,7 @@ impl Patch {
 
     /// What every element feels.
     fn feels(&self, block: &dyn ElementBlock, axis: Vec3, now: &Configuration) -> Vec<ShellResultants> {
-        let start = |e: &Vec<usize>| -> Vec<Vec3> { e.iter().map(|&n| self.x[n]).collect() };
-        let of = |(e, nodes)| block.resultants(e, &axis, &start(nodes), now).unwrap();
-        self.elements.iter().enumerate().map(of).collect()
+        resultants(block, &axis, &self.x, now)
     }
 }
 

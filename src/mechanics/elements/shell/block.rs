@@ -301,8 +301,16 @@ where
         self.damping * sum
     }
 
-    fn resultants(&self, e: usize, axis: &Vec3, start: &[Vec3], now: &Configuration) -> Option<ShellResultants> {
-        results::resultants(self, e, axis, start, now)
+    fn resultants(
+        &self,
+        axis: &Vec3,
+        start: &dyn Fn(usize) -> Vec3,
+        now: &Configuration,
+        write: &mut dyn FnMut(usize, ShellResultants),
+    ) {
+        for (p, pack) in self.packs.iter().enumerate() {
+            results::resultants::<K, N, V, P, E, S>(pack, axis, start, now, &mut |lane, at| write(p * LANES + lane, at));
+        }
     }
 
     fn plastic_strain(&self, e: usize, history: &[f64]) -> f64 {

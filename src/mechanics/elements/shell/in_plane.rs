@@ -22,14 +22,11 @@ impl<const P: usize, const E: usize, T: Number> InPlane<P, E, T> {
     pub fn lane(&self, lane: usize) -> InPlane<P, E> {
         InPlane { membrane: self.membrane.map(|of| of.lane(lane)), bending: self.bending.map(|of| of.lane(lane)) }
     }
-}
 
-impl<const P: usize, const E: usize> InPlane<P, E> {
     /// σ·ε over membrane and bending.
     #[inline]
-    pub fn dot(&self, other: &Self) -> f64 {
-        let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        sum(&self.membrane, &other.membrane) + sum(&self.bending, &other.bending)
+    pub fn dot(&self, other: &Self) -> T {
+        product(&self.membrane, &other.membrane) + product(&self.bending, &other.bending)
     }
 }
 

@@ -203,10 +203,15 @@ impl<const N: usize, const P: usize, const E: usize> Strains<N, P, E> {
         self
     }
 
+    /// σ·ε of each element.
+    #[inline]
+    pub fn products(&self, other: &Self) -> Lanes {
+        self.plane.dot(&other.plane) + product(&self.shear, &other.shear)
+    }
+
     /// σ·ε of an element.
     pub fn dot(&self, other: &Self, lane: usize) -> f64 {
-        let shear = |i: usize| self.shear[i].as_array()[lane] * other.shear[i].as_array()[lane];
-        self.plane.lane(lane).dot(&other.plane.lane(lane)) + (0..N).map(shear).sum::<f64>()
+        self.products(other).as_array()[lane]
     }
 }
 

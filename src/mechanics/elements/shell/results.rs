@@ -6,12 +6,12 @@
 
 use super::interpolation::Interpolation;
 use super::nodal_vectors::{NodalVectors, sum};
-use super::pack::{Motion, Shells, Strains};
+use super::pack::{Motion, ShellPack, Strains};
 use super::section::ShellSections;
 use crate::elements::pressure::Face;
 use crate::elements::results::{LayerStress, MOST_LAYERS, ShellResultants};
 use crate::state::Configuration;
-use base::math::lanes::Lanes;
+use base::math::lanes::{LANES, Lanes};
 use base::math::number::LaneVec3;
 use base::math::{Mat3, Vec3};
 use std::array::from_fn;
@@ -33,90 +33,117 @@ pub fn result_axes(axis: &Vec3, normal: &Vec3) -> [Vec3; 2] {
     [first, normal.cross(&first)]
 }
 
-/// The resultants of element `e`, whose nodes lay at `X`; axis 1 is `axis` projected on the surface at t = 0.
+/// Calls `write` with the place and the resultants of each element of a pack, whose nodes lay at `start`; axis 1 is `axis` projected on the
+/// surface at t = 0.
 pub(super) fn resultants<K, const N: usize, const V: usize, const P: usize, const E: usize, S>(
-    shells: &Shells<K, N, V, P, E, S>,
-    e: usize,
+    pack: &ShellPack<N, V, P, E, S>,
     axis: &Vec3,
-    X: &[Vec3],
+    start: &dyn Fn(usize) -> Vec3,
     now: &Configuration,
-) -> Option<ShellResultants>
-where
+    write: &mut dyn FnMut(usize, ShellResultants),
+) where
     K: Interpolation<N, V, P>,
     S: ShellSections<P, E, Lanes>,
 {
-    let (pack, lane) = shells.place(e);
-    let X: [Vec3; N] = from_fn(|a| X[a] - X[0]);
     let strains = pack.strains_at::<K>(now.nodes);
-    let stress = match pack.sections.has_failed(lane, now.history) {
-        true => Strains::ZERO,
-        false => Strains { plane: pack.sections.stress(&strains.plane, now), shear: pack.shear_stress(&strains.shear) },
+    let stress =
+        Strains { plane: pack.sections.stress(&strains.plane, now), shear: pack.shear_stress(&strains.shear) };
+    let means: [MeanStress<N>; LANES] = from_fn(|lane| {
+        let nodes = &pack.nodes[lane];
+        MeanStress::new(from_fn(|a| start(nodes[a]) - start(nodes[0])), axis)
+    });
+    let at_start = Motion {
+        x: from_fn(|a| LaneVec3::gather(|lane| means[lane].X[a])),
+        triads: from_fn(|k| from_fn(|a| pack.axes[a][k])),
     };
-    let axes = |k: usize| from_fn(|a| pack.axes[a][k].lane(lane));
-    let start = NodalVectors { x: X, triads: from_fn(axes) };
-    let at = |way: &NodalVectors<N>, s: f64| {
-        let NodalVectors { x, triads } = start.plus(s, way);
-        let all = |v: [Vec3; N]| v.map(|v| LaneVec3::gather(|_| v));
-        let motion = Motion { x: all(x), triads: triads.map(all) };
-        let mut strains = pack.measure::<K>(&motion, &pack.chords(&motion));
-        // Twisting moments on bent edges cancel between elements and are no shear forces.
-        let bent = pack.bent.curvature(&strains.shear);
-        (0..3).for_each(|n| strains.plane.bending[n] -= bent[n]);
-        stress.dot(&strains, lane)
-    };
-    let Motion { x, triads } = pack.gather(now.nodes);
-    let one = |v: [LaneVec3; N]| v.map(|v| v.lane(lane));
-    let motion = NodalVectors { x: one(x), triads: triads.map(one) };
-    let first = sum(&pack.slopes[0].map(|s| s.as_array()[lane]), &X);
-    let mean = MeanStress { X: &X, axis, motion: &motion, first };
-    mean.resultants(&at, |layers| pack.sections.layers(lane, &strains.plane.lane(lane), now, layers))
-}
-
-/// The geometry for the mean stress of an element.
-pub(super) struct MeanStress<'a, const N: usize> {
-    /// Positions of the nodes at t = 0, from that of the first.
-    pub X: &'a [Vec3; N],
-    /// Axis 1, before it is projected on the surface.
-    pub axis: &'a Vec3,
-    /// The nodes now.
-    pub motion: &'a NodalVectors<N>,
-    /// Along axis 1 of the layers.
-    pub first: Vec3,
-}
-
-impl<const N: usize> MeanStress<'_, N> {
-    /// The resultants; `work` is the work of the stress on the strains of a motion scaled from t = 0, `write_layers` as
-    /// [`ShellSections::layers`].
-    pub fn resultants(
-        &self,
-        work: &dyn Fn(&NodalVectors<N>, f64) -> f64,
-        write_layers: impl FnOnce(&mut [LayerStress]) -> usize,
-    ) -> Option<ShellResultants> {
-        let MeanStress { X, axis, motion, first: own } = self;
-        let area: Vec3 = Face::of(&from_fn::<_, N, _>(|a| a))?.areas(|a| X[a]).iter().sum();
-        let normal = area.normalize();
-        let t = result_axes(axis, &normal);
-        // This mean stress is conjugate to the strain of a change of positions and directors.
-        let mean = |change: &dyn Fn(&Vec3) -> [Vec3; 2]| {
-            let mut way = NodalVectors { x: [Vec3::zeros(); N], triads: [[Vec3::zeros(); N]; 3] };
-            (0..N).for_each(|a| [way.x[a], way.triads[0][a]] = change(&X[a]));
-            0.5 * (work(&way, 1.0) - work(&way, -1.0)) / area.norm()
+    let work: [Lanes; WAYS] = from_fn(|k| {
+        let ways: [NodalVectors<N>; LANES] = from_fn(|lane| means[lane].way(k));
+        let mut way = Motion { x: [LaneVec3::ZERO; N], triads: [[LaneVec3::ZERO; N]; 3] };
+        for a in 0..N {
+            way.x[a] = LaneVec3::gather(|lane| ways[lane].x[a]);
+            way.triads[0][a] = LaneVec3::gather(|lane| ways[lane].triads[0][a]);
+        }
+        let at = |s: f64| {
+            let motion = at_start.plus(s, &way);
+            let mut strains = pack.measure::<K>(&motion, &pack.chords(&motion));
+            // Twisting moments on bent edges cancel between elements and are no shear forces.
+            let bent = pack.bent.curvature(&strains.shear);
+            (0..3).for_each(|n| strains.plane.bending[n] -= bent[n]);
+            stress.products(&strains)
         };
+        Lanes::splat(0.5) * (at(1.0) - at(-1.0))
+    });
+    let Motion { x, triads } = pack.gather(now.nodes);
+    for (lane, mean) in means.iter().enumerate().take(pack.count) {
+        let one = |v: [LaneVec3; N]| v.map(|v| v.lane(lane));
+        let motion = NodalVectors { x: one(x), triads: triads.map(one) };
+        let first = sum(&pack.slopes[0].map(|s| s.as_array()[lane]), &mean.X);
+        let has_failed = pack.sections.has_failed(lane, now.history);
+        let work = if has_failed { [0.0; WAYS] } else { work.map(|work| work.as_array()[lane]) };
+        let layers = |layers: &mut [_]| pack.sections.layers(lane, &strains.plane.lane(lane), now, layers);
+        write(lane, mean.resultants(work, &motion, &first, layers));
+    }
+}
+
+/// The number of resultants: of N, M and Q.
+pub(super) const WAYS: usize = 8;
+
+/// The mean stress of an element, by the work on the motions that its resultants are conjugate to.
+pub(super) struct MeanStress<const N: usize> {
+    /// Positions of the nodes at t = 0, from that of the first.
+    X: [Vec3; N],
+    area: f64,
+    normal: Vec3,
+    /// Axes 1 and 2 of the results.
+    t: [Vec3; 2],
+}
+
+impl<const N: usize> MeanStress<N> {
+    /// The mean stress of an element whose nodes lay at `X`, with `axis` projected on the surface.
+    pub fn new(X: [Vec3; N], axis: &Vec3) -> Self {
+        let face = Face::of(&from_fn::<_, N, _>(|a| a)).expect("shells have three, four, six or nine nodes");
+        let area: Vec3 = face.areas(|a| X[a]).iter().sum();
+        let normal = area.normalize();
+        MeanStress { X, area: area.norm(), normal, t: result_axes(axis, &normal) }
+    }
+
+    /// The change of positions and directors to which resultant `k` of N₁₁, N₂₂, N₁₂, M₁₁, M₂₂, M₁₂, Q₁, Q₂ is conjugate.
+    pub fn way(&self, k: usize) -> NodalVectors<N> {
+        let MeanStress { X, normal, t, .. } = self;
         // x ↦ E x with one component of E: 11, 22, or 12 and 21 by a half each.
         let even = |i: usize, x: &Vec3| match i {
             2 => 0.5 * (t[1].dot(x) * t[0] + t[0].dot(x) * t[1]),
             _ => t[i].dot(x) * t[i],
         };
-        let forces = from_fn(|i| mean(&|x| [even(i, x), Vec3::zeros()]));
-        let moments = from_fn(|i| mean(&|x| [-0.5 * x.dot(&even(i, x)) * normal, even(i, x)]));
-        let shears = from_fn(|i| mean(&|_| [Vec3::zeros(), t[i]]));
+        let mut way = NodalVectors { x: [Vec3::zeros(); N], triads: [[Vec3::zeros(); N]; 3] };
+        for (a, x) in X.iter().enumerate() {
+            [way.x[a], way.triads[0][a]] = match k {
+                0..3 => [even(k, x), Vec3::zeros()],
+                3..6 => [-0.5 * x.dot(&even(k - 3, x)) * normal, even(k - 3, x)],
+                _ => [Vec3::zeros(), t[k - 6]],
+            };
+        }
+        way
+    }
 
+    /// The resultants of the nodes at `motion`; `work` is that of the stress on each way, `first` lies along axis 1 of the layers, and
+    /// `write_layers` is as [`ShellSections::layers`].
+    pub fn resultants(
+        &self,
+        work: [f64; WAYS],
+        motion: &NodalVectors<N>,
+        first: &Vec3,
+        write_layers: impl FnOnce(&mut [LayerStress]) -> usize,
+    ) -> ShellResultants {
+        let MeanStress { X, area, t, .. } = self;
         let mut layers = [LayerStress::default(); MOST_LAYERS];
         let count = write_layers(&mut layers);
         // Layers have the axes of the element, which are rotated to `t`.
-        let turned = [t[0].dot(own), -t[1].dot(own)];
+        let turned = [t[0].dot(first), -t[1].dot(first)];
         layers[..count].iter_mut().for_each(|layer| layer.stress = rotate(&layer.stress, turned));
-        Some(ShellResultants { frame: frame(X, &t, motion), N: forces, M: moments, Q: shears, layers, count })
+        let [n11, n22, n12, m11, m22, m12, q1, q2] = work.map(|work| work / area);
+        let frame = frame(X, t, motion);
+        ShellResultants { frame, N: [n11, n22, n12], M: [m11, m22, m12], Q: [q1, q2], layers, count }
     }
 }
 

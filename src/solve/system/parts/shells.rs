@@ -5,6 +5,7 @@ use super::masses::{LumpedElement, NodalMasses, NodalShare};
 use crate::system::group::Group;
 use crate::system::inertia::ConsistentMass;
 use crate::system::plane::MotionPlane;
+use crate::system::thread_partition::both;
 use base::math::{Mat3, Vec3};
 use mechanics::elements::shell::{
     self, CurvedQuadrilaterals, CurvedTriangles, NineNodes, Plate, Quadrilateral, Quadrilaterals, SixNodes, Triangle,
@@ -17,7 +18,7 @@ use model::{MassKind, Model, PartType, Shell};
 use std::ops::Range;
 
 /// The state of a shell element.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ShellState {
     /// The shell's index in [`Model::parts`].
     pub part: usize,
@@ -145,23 +146,49 @@ fn block(part: &Shell, piece: Range<usize>, &Setting { model, x, .. }: &Setting)
 /// Writes the stress resultants of all elements of all shells into `out`, in deck order.
 pub fn shell_states<'g>(
     groups: impl Iterator<Item = &'g Group>,
-    model: &Model,
+    model: &'g Model,
     now: &Configuration,
+    threads: bool,
     out: &mut Vec<ShellState>,
 ) {
-    out.clear();
-    for group in groups {
-        let Some(shell) = Shell::of(&model.parts[group.part]) else { continue };
-        let now = group.configuration(now);
-        for e in 0..group.block.len() {
-            let element = group.first + e;
-            let start = shell.elements[element].nodes.map(|node| model.nodes[node].x);
-            let resultants = group.block.resultants(e, &shell.axis, &start[..shell.size()], &now);
-            let Some(mut at) = resultants else { continue };
-            if at.layers().is_empty() {
-                at.set_elastic_layers(shell.thickness(element));
-            }
-            out.push(ShellState { part: group.part, element: shell.number(element), at });
+    let of_shells: Vec<_> = groups.filter_map(|group| Some((group, Shell::of(&model.parts[group.part])?))).collect();
+    out.resize(elements(&of_shells), ShellState::default());
+    write_states(&of_shells, model, now, threads, out);
+}
+
+/// The number of elements of groups.
+fn elements(groups: &[(&Group, &Shell)]) -> usize {
+    groups.iter().map(|(group, _)| group.block.len()).sum()
+}
+
+/// Writes the stress resultants of groups, in halves.
+fn write_states(
+    groups: &[(&Group, &Shell)],
+    model: &Model,
+    now: &Configuration,
+    threads: bool,
+    out: &mut [ShellState],
+) {
+    match groups {
+        [] => {}
+        [(group, shell)] => {
+            let now = group.configuration(now);
+            group.block.resultants(&shell.axis, &|node| model.nodes[node].x, &now, &mut |e, mut at| {
+                let element = group.first + e;
+                if at.layers().is_empty() {
+                    at.set_elastic_layers(shell.thickness(element));
+                }
+                out[e] = ShellState { part: group.part, element: shell.number(element), at };
+            });
+        }
+        _ => {
+            let (left, right) = groups.split_at(groups.len() / 2);
+            let (first, second) = out.split_at_mut(elements(left));
+            both(
+                threads,
+                || write_states(left, model, now, threads, first),
+                || write_states(right, model, now, threads, second),
+            );
         }
     }
 }

@@ -153,18 +153,31 @@ where
         self.damping * whole.map(of).sum::<f64>()
     }
 
-    fn resultants(&self, e: usize, axis: &Vec3, start: &[Vec3], now: &Configuration) -> Option<ShellResultants> {
-        let element = &self.elements[e];
-        let X: [Vec3; N] = from_fn(|a| start[a] - start[0]);
-        let motion = element.gather(now.nodes);
-        let strains = element.strains(&motion, now.nodes);
-        // A failed element has no stress.
-        let part = if element.section.has_failed(0, now.history) { 0.0 } else { 1.0 };
-        let stress = stress(element, &strains, now);
-        let at_start = NodalVectors { x: X, triads: [element.D, element.T.map(|t| t[0]), element.T.map(|t| t[1])] };
-        let work = |way: &NodalVectors<N>, s: f64| part * stress.dot(&element.measure(&at_start.plus(s, way)));
-        let mean = MeanStress { X: &X, axis, motion: &motion, first: CurvedSurface::new::<K>(X).axes[0] };
-        mean.resultants(&work, |layers| element.section.layers(0, &strains.plane, now, layers))
+    fn resultants(
+        &self,
+        axis: &Vec3,
+        start: &dyn Fn(usize) -> Vec3,
+        now: &Configuration,
+        write: &mut dyn FnMut(usize, ShellResultants),
+    ) {
+        for (e, element) in self.elements.iter().enumerate() {
+            let X: [Vec3; N] = from_fn(|a| start(element.nodes[a]) - start(element.nodes[0]));
+            let motion = element.gather(now.nodes);
+            let strains = element.strains(&motion, now.nodes);
+            // A failed element has no stress.
+            let part = if element.section.has_failed(0, now.history) { 0.0 } else { 1.0 };
+            let stress = stress(element, &strains, now);
+            let at_start = NodalVectors { x: X, triads: [element.D, element.T.map(|t| t[0]), element.T.map(|t| t[1])] };
+            let mean = MeanStress::new(X, axis);
+            let work = from_fn(|k| {
+                let way = mean.way(k);
+                let work = |s: f64| part * stress.dot(&element.measure(&at_start.plus(s, &way)));
+                0.5 * (work(1.0) - work(-1.0))
+            });
+            let first = CurvedSurface::new::<K>(X).axes[0];
+            let layers = |layers: &mut [_]| element.section.layers(0, &strains.plane, now, layers);
+            write(e, mean.resultants(work, &motion, &first, layers));
+        }
     }
 
     fn plastic_strain(&self, e: usize, history: &[f64]) -> f64 {
