@@ -242,6 +242,11 @@ impl Assembly {
                 };
                 let fill = |(k, K): (usize, &mut [f64])| {
                     let from = first + LANES * k;
+                    // Around supports few matrices are wanted.
+                    let wanted = &destinations[from..(from + LANES).min(last)];
+                    if wanted.iter().all(Destination::is_empty) {
+                        return;
+                    }
                     if sparse || of_stresses {
                         (from..).zip(K.chunks_mut(length)).for_each(one);
                     } else {
@@ -255,8 +260,10 @@ impl Assembly {
                 }
                 let width = d * block.nodes(0).len();
                 let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };
-                for (e, K) in (first..last).zip(local.chunks_mut(length)).filter(|(e, _)| !inactive(*e)) {
-                    how.add((K, width), &destinations[e], projected, values);
+                for (e, K) in (first..last).zip(local.chunks_mut(length)) {
+                    if !destinations[e].is_empty() && !inactive(e) {
+                        how.add((K, width), &destinations[e], projected, values);
+                    }
                 }
             }
         }

@@ -16,6 +16,13 @@ pub struct Destination {
     blocks: [u32; 2],
 }
 
+impl Destination {
+    /// True where no entry of the local matrix is wanted.
+    pub fn is_empty(&self) -> bool {
+        self.entries.from == self.entries.to && self.blocks[0] == self.blocks[1]
+    }
+}
+
 /// The entries of a local matrix that reach the system's: ranges of [`Scatter`].
 #[derive(Clone, Copy)]
 pub struct Entries {
@@ -99,8 +106,9 @@ impl<'a> Destinations<'a> {
         if let Some(blocks) = self.whole_blocks(&rows) {
             return Destination { projection, entries: Entries { from: 0, halves: 0, to: 0 }, blocks };
         }
-        let size = rows.len();
         let row = |i: usize| dofs.row(rows[i].0, rows[i].1);
+        // Around supports few rows are unknowns.
+        let size = if (0..rows.len()).any(|i| row(i).is_some()) { rows.len() } else { 0 };
         let entry = |k: usize| {
             let (i, j) = place(k, size);
             row(i).zip(row(j))
