@@ -4,7 +4,8 @@
 use crate::guards::mode::Mode;
 use crate::strategy::stabilization::HeldByForces;
 use crate::system::{DofMap, Group, System, TangentWeights, open_gap};
-use crate::tolerances::mechanism::{ENERGY, FORCE, MOVING};
+use crate::tolerances::mechanism::{ENERGY, FIRST_ITERATIONS, FORCE, MOVING};
+use crate::tolerances::mode::ITERATIONS;
 use base::math::{Vec6, angular, linear};
 use base::names::short;
 use linear::Solver;
@@ -22,13 +23,19 @@ pub fn find(
     (weights, held): (TangentWeights, Option<&HeldByForces>),
     length: f64,
 ) -> Option<(usize, usize)> {
-    let mode = Mode::softest(solver, dofs, length)?;
-    let mut motions = mode.motions(dofs);
-    system.project(now.nodes, &mut motions);
-    let resisted = opens_joints(system, now, &motions, length)
-        || strains_elements(system, now, weights, &motions, length)
-        || held.is_some_and(|held| held.resist(&mode));
-    if resisted { None } else { mode.largest(dofs) }
+    let is_resisted = |mode: &Mode| {
+        let mut motions = mode.motions(dofs);
+        system.project(now.nodes, &mut motions);
+        opens_joints(system, now, &motions, length)
+            || strains_elements(system, now, weights, &motions, length)
+            || held.is_some_and(|held| held.resist(mode))
+    };
+    let mode = Mode::scattered(dofs).softened(solver, dofs, length, FIRST_ITERATIONS)?;
+    if is_resisted(&mode) {
+        return None;
+    }
+    let mode = mode.softened(solver, dofs, length, ITERATIONS - FIRST_ITERATIONS)?;
+    if is_resisted(&mode) { None } else { mode.largest(dofs) }
 }
 
 /// True if a joint resists the motion because the motion violates its constraint equations.
@@ -64,6 +71,10 @@ pub fn strains_elements(
             K.resize((d * nodes.len()).pow(2), 0.0);
             block.tangent(e, now, weights.rate, weights.moduli, &mut K);
             strains.add(&K, nodes, d, is_unilateral);
+            // One element that resists suffices.
+            if strains.largest > FORCE {
+                return true;
+            }
         }
     }
     strains.energy.abs() > ENERGY * strains.terms || strains.largest > FORCE

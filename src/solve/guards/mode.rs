@@ -14,11 +14,21 @@ impl Mode {
     /// The mode of the last factorized matrix whose stiffness is nearest to zero; `None` if the iteration overflows. `length` weighs
     /// rotations against translations.
     pub fn softest(solver: &mut Solver, dofs: &DofMap, length: f64) -> Option<Mode> {
-        let weight = |dof: usize| if dof < 3 { 1.0 } else { length };
-        // Multiples of the golden ratio, modulo 1, follow no mode of a structure, and are the same in every run.
+        Mode::scattered(dofs).softened(solver, dofs, length, ITERATIONS)
+    }
+
+    /// A motion that follows no mode of a structure, and is the same in every run.
+    pub fn scattered(dofs: &DofMap) -> Mode {
+        // Multiples of the golden ratio, modulo 1.
         let scattered = |i: usize| (0.618_033_988_749_895 * (i + 1) as f64).fract() - 0.5;
-        let mut values: Vec<f64> = (0..dofs.unknowns()).map(scattered).collect();
-        for _ in 0..ITERATIONS {
+        Mode { values: (0..dofs.unknowns()).map(scattered).collect() }
+    }
+
+    /// The motion after so many inverse iterations; `None` if one overflows.
+    pub fn softened(self, solver: &mut Solver, dofs: &DofMap, length: f64, iterations: usize) -> Option<Mode> {
+        let mut values = self.values;
+        let weight = |dof: usize| if dof < 3 { 1.0 } else { length };
+        for _ in 0..iterations {
             for (value, &(_, dof)) in values.iter_mut().zip(dofs.nodal_dofs()) {
                 *value *= weight(dof) * weight(dof);
             }
