@@ -309,7 +309,9 @@ where
         write: &mut dyn FnMut(usize, ShellResultants),
     ) {
         for (p, pack) in self.packs.iter().enumerate() {
-            results::resultants::<K, N, V, P, E, S>(pack, axis, start, now, &mut |lane, at| write(p * LANES + lane, at));
+            results::resultants::<K, N, V, P, E, S>(pack, axis, start, now, &mut |lane, at| {
+                write(p * LANES + lane, at)
+            });
         }
     }
 

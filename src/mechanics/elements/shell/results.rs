@@ -46,8 +46,7 @@ pub(super) fn resultants<K, const N: usize, const V: usize, const P: usize, cons
     S: ShellSections<P, E, Lanes>,
 {
     let strains = pack.strains_at::<K>(now.nodes);
-    let stress =
-        Strains { plane: pack.sections.stress(&strains.plane, now), shear: pack.shear_stress(&strains.shear) };
+    let stress = Strains { plane: pack.sections.stress(&strains.plane, now), shear: pack.shear_stress(&strains.shear) };
     let means: [MeanStress<N>; LANES] = from_fn(|lane| {
         let nodes = &pack.nodes[lane];
         MeanStress::new(from_fn(|a| start(nodes[a]) - start(nodes[0])), axis)
