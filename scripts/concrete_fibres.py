@@ -2,7 +2,7 @@
 """Reference values of concrete and reinforcing steel by OpenSees (pip install openseespy).
 
 Prints the stresses of Concrete02 and Steel02 along a history of strains, and a cantilever column of fibres that is pushed to and fro. The values
-stand in src/mechanics/materials/uniaxial/tests.rs, tests/mechanics/concrete.rs and decks/reinforced_column.
+stand in src/mechanics/materials/uniaxial/tests.rs, decks/reinforced_column.
 """
 
 import math
@@ -102,7 +102,7 @@ def moment_curvature(rows):
     ops.patch("rect", 2, rows // 10, 1, y - cover, cover - z, y, z - cover)
     for at, count in [(y - cover, 3), (0.0, 2), (cover - y, 3)]:
         ops.fiber(at, 0.0, count * bar, 3)
-        ops.fiber(at, 0.0, -count * bar, 1 if at == 0.0 else 2)
+        ops.fiber(at, 0.0, -count * bar, 1)
     ops.node(1, 0.0, 0.0)
     ops.node(2, 0.0, 0.0)
     ops.fix(1, 1, 1, 1)

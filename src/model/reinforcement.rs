@@ -1,15 +1,13 @@
 //! `bars`, `core` and `cover` of `[sections.x]`: the fibres of a section of several materials, and its stiffness and mass.
 
-use super::data::BeamElement;
-use super::part_context::PartContext;
+use super::materials::Materials;
 use super::report::{Owner, Report};
-use super::sections::Sections;
 use base::diagnostic::{At, Span};
 use base::names::short;
 use deck::sections as words;
 use deck::words::Numbers;
 use deck::words::kinds::OneOf;
-use mechanics::elements::beam::{FibreGroup, FibreModel};
+use mechanics::elements::beam::FibreGroup;
 use mechanics::materials::uniaxial::UniaxialLaw;
 use mechanics::sections::{Fibre, SectionShape, Stiffness};
 use std::f64::consts::PI;
@@ -62,150 +60,109 @@ pub(super) fn with_fibres(section: &Stiffness, parts: &[SectionPart]) -> Stiffne
     out
 }
 
-impl<'d> Sections<'_, 'd> {
-    /// Replaces the fibres of a section of one material by those of cover, core and bars. `counts` are the numbers of fibres.
-    pub(super) fn reinforce(
-        &self,
-        (name, section): (&'d At<String>, &'d At<OneOf<words::Section>>),
-        shape: &dyn SectionShape,
-        counts: [usize; 2],
-        base: SectionPart,
-        needs_mass: bool,
-        report: &mut Report<'d>,
-    ) -> Option<Vec<SectionPart>> {
-        let owner = Owner::new(format!("section `{}`", name.value), &section.span);
-        let mut parts = vec![base];
-        let mut depth_of_core = f64::INFINITY;
-        if let Some(core) = &section.core {
-            let cover = report.require_positive(&owner, "cover", &section.cover)?;
-            let part = self.part(core, &owner, needs_mass, report)?;
-            self.require_concrete(core, &part.group.law, report)?;
-            let Some([outside, inside]) = shape.cover_and_core(cover, counts) else {
-                let place = &section.cover.as_ref()?.span;
-                let message = format!("{} has no core within a cover of {}", owner.what, short(cover));
-                return report.error_with(
-                    place,
-                    message,
-                    "a core has shape \"rectangle\" or \"circle\" and some width",
-                );
-            };
-            parts[0].group.fibres = outside;
-            parts.push(SectionPart { group: FibreGroup { fibres: inside, ..part.group }, ..part });
-            depth_of_core = cover;
-        } else if let Some(cover) = &section.cover {
-            let message = format!("{} has a `cover`, but no `core`", owner.what);
-            return report.error_with(&cover.span, message, "name the material of the core");
-        }
-        let mut sound = true;
-        for bars in section.bars.iter().flat_map(|bars| &bars.value) {
-            let read = self.bars((&owner, bars), shape, (&mut parts, depth_of_core), needs_mass, report);
-            sound &= read.is_some();
-        }
-        sound.then_some(parts)
-    }
-
-    /// A material without fibres yet.
-    fn part(
-        &self,
-        name: &'d At<String>,
-        owner: &Owner<'d>,
-        needs_mass: bool,
-        report: &mut Report<'d>,
-    ) -> Option<SectionPart> {
-        let (_, material) = self.materials.find(name, report)?;
-        let density = self.materials.density_if(needs_mass, name, material, &owner.what, report)?;
-        let law = match self.materials.law_of_fibres(name)? {
-            Some(law) => law,
-            None => UniaxialLaw::Elastic(material.youngs_modulus.as_ref()?.value),
+/// Replaces the fibres of a section of one material by those of cover, core and bars. `counts` are the numbers of fibres.
+pub(super) fn reinforce<'d>(
+    materials: &Materials<'d>,
+    (name, section): (&'d At<String>, &'d At<OneOf<words::Section>>),
+    shape: &dyn SectionShape,
+    counts: [usize; 2],
+    base: SectionPart,
+    needs_mass: bool,
+    report: &mut Report<'d>,
+) -> Option<Vec<SectionPart>> {
+    let owner = Owner::new(format!("section `{}`", name.value), &section.span);
+    let mut parts = vec![base];
+    let mut depth_of_core = f64::INFINITY;
+    if let Some(core) = &section.core {
+        let cover = report.require_positive(&owner, "cover", &section.cover)?;
+        let part = self::part(materials, core, &owner, needs_mass, report)?;
+        require_concrete(core, &part.group.law, report)?;
+        let Some([outside, inside]) = shape.cover_and_core(cover, counts) else {
+            let place = &section.cover.as_ref()?.span;
+            let message = format!("{} has no core within a cover of {}", owner.what, short(cover));
+            return report.error_with(place, message, "a core has shape \"rectangle\" or \"circle\" and some width");
         };
-        Some(SectionPart { group: FibreGroup { law, fibres: Vec::new() }, density })
+        parts[0].group.fibres = outside;
+        parts.push(SectionPart { group: FibreGroup { fibres: inside, ..part.group }, ..part });
+        depth_of_core = cover;
+    } else if let Some(cover) = &section.cover {
+        let message = format!("{} has a `cover`, but no `core`", owner.what);
+        return report.error_with(&cover.span, message, "name the material of the core");
     }
-
-    /// Reports a material that is no concrete.
-    pub(super) fn require_concrete(&self, name: &At<String>, law: &UniaxialLaw, report: &mut Report<'d>) -> Option<()> {
-        if matches!(law, UniaxialLaw::Concrete(_)) {
-            return Some(());
-        }
-        let message =
-            format!("material `{}` is no concrete: `core` and `bars` belong to sections of concrete", name.value);
-        report.error_with(&name.span, message, "name a material of model \"concrete\"")
+    let mut sound = true;
+    for bars in section.bars.iter().flat_map(|bars| &bars.value) {
+        let read = self::bars(materials, (&owner, bars), shape, (&mut parts, depth_of_core), needs_mass, report);
+        sound &= read.is_some();
     }
-
-    /// Adds bars to the parts of a section, and takes away the concrete that they displace.
-    fn bars(
-        &self,
-        (owner, bars): (&Owner<'d>, &'d At<deck::words::Table<words::SectionBars>>),
-        shape: &dyn SectionShape,
-        (parts, depth_of_core): (&mut Vec<SectionPart>, f64),
-        needs_mass: bool,
-        report: &mut Report<'d>,
-    ) -> Option<()> {
-        let table = Owner::new(format!("`bars` of {}", owner.what), &bars.span);
-        let places = places(&table, bars, report);
-        let area = area(&table, bars, report);
-        let name = report.require(&table, "material", &bars.material)?;
-        let mut part = self.part(name, owner, needs_mass, report)?;
-        if matches!(part.group.law, UniaxialLaw::Concrete(_)) {
-            let message = format!("{} are of concrete, material `{}`", table.what, name.value);
-            return report.error_with(&name.span, message, "name a material of steel");
-        }
-        let (area, places) = (area?, places?);
-        let radius = (area / PI).sqrt();
-        for at @ [y, z] in places {
-            let Some(depth) = shape.depth(at) else {
-                let message = format!("{} has `bars`, which its shape does not take", owner.what);
-                return report.error_with(&bars.span, message, "take shape \"rectangle\", \"circle\" or \"tube\"");
-            };
-            // A bar that touches the surface is inside, to rounding.
-            if depth < radius * (1.0 - 1e-9) {
-                let message = format!("the bar at [{}, {}] does not lie within {}", short(y), short(z), owner.what);
-                let hint = format!("its centre is {} deep, its radius is {}", short(depth), short(radius));
-                return report.error_with(&bars.span, message, hint);
-            }
-            let concrete = usize::from(depth > depth_of_core);
-            let fibre = |area: f64| Fibre { area, y, z, shear: [[0.0; 3]; 2] };
-            parts[concrete].group.fibres.push(fibre(-area));
-            part.group.fibres.push(fibre(area));
-        }
-        parts.push(part);
-        Some(())
-    }
+    sound.then_some(parts)
 }
 
-/// Reports concrete whose energy of softening is too small for the length that an integration point stands for.
-pub(super) fn check_lengths(
-    owner: &Owner,
-    yielding: &FibreModel,
-    (elements, order): (&[BeamElement], usize),
-    cx: &mut PartContext,
-) -> Option<()> {
-    let longest = |group: &FibreGroup| match &group.law {
-        UniaxialLaw::Concrete(model) => model.longest(),
-        _ => f64::INFINITY,
+/// A material without fibres yet.
+fn part<'d>(
+    materials: &Materials<'d>,
+    name: &'d At<String>,
+    owner: &Owner<'d>,
+    needs_mass: bool,
+    report: &mut Report<'d>,
+) -> Option<SectionPart> {
+    let (_, material) = materials.find(name, report)?;
+    let density = materials.density_if(needs_mass, name, material, &owner.what, report)?;
+    let law = match materials.law_of_fibres(name)? {
+        Some(law) => law,
+        None => UniaxialLaw::Elastic(material.youngs_modulus.as_ref()?.value),
     };
-    let longest = yielding.groups.iter().map(longest).fold(f64::INFINITY, f64::min);
-    let length = |element: &BeamElement| {
-        let [start, end] = element.ends(order).map(|node| cx.nodes.x(node));
-        (end - start).norm()
-    };
-    let weights = yielding.rule.points(yielding.points).1;
-    let part = 0.5 * weights.iter().copied().fold(0.0, f64::max);
-    let most = elements.iter().map(length).fold(0.0, f64::max);
-    if part * most < longest {
+    Some(SectionPart { group: FibreGroup { law, fibres: Vec::new() }, density })
+}
+
+/// Reports a material that is no concrete.
+pub(super) fn require_concrete(name: &At<String>, law: &UniaxialLaw, report: &mut Report) -> Option<()> {
+    if matches!(law, UniaxialLaw::Concrete(_)) {
         return Some(());
     }
-    let message = format!(
-        "{}: an integration point stands for a length of {}, over which the energy of softening of its concrete is below the elastic energy",
-        owner.what,
-        short(part * most)
-    );
-    let hint = format!(
-        "take elements no longer than {}, or give `crushing_strain` and `tension_softening_modulus`",
-        short(0.9 * longest / part)
-    );
-    cx.report.error_with(owner.span, message, hint)
+    let message = format!("material `{}` is no concrete: `core` and `bars` belong to sections of concrete", name.value);
+    report.error_with(&name.span, message, "name a material of model \"concrete\"")
 }
 
+/// Adds bars to the parts of a section, and takes away the concrete that they displace.
+fn bars<'d>(
+    materials: &Materials<'d>,
+    (owner, bars): (&Owner<'d>, &'d At<deck::words::Table<words::SectionBars>>),
+    shape: &dyn SectionShape,
+    (parts, depth_of_core): (&mut Vec<SectionPart>, f64),
+    needs_mass: bool,
+    report: &mut Report<'d>,
+) -> Option<()> {
+    let table = Owner::new(format!("`bars` of {}", owner.what), &bars.span);
+    let places = places(&table, bars, report);
+    let area = area(&table, bars, report);
+    let name = report.require(&table, "material", &bars.material)?;
+    let mut part = self::part(materials, name, owner, needs_mass, report)?;
+    if matches!(part.group.law, UniaxialLaw::Concrete(_)) {
+        let message = format!("{} are of concrete, material `{}`", table.what, name.value);
+        return report.error_with(&name.span, message, "name a material of steel");
+    }
+    let (area, places) = (area?, places?);
+    let radius = (area / PI).sqrt();
+    for at @ [y, z] in places {
+        let Some(depth) = shape.depth(at) else {
+            let message = format!("{} has `bars`, which its shape does not take", owner.what);
+            return report.error_with(&bars.span, message, "take shape \"rectangle\", \"circle\" or \"tube\"");
+        };
+        // A bar that touches the surface is inside, to rounding.
+        if depth < radius * (1.0 - 1e-9) {
+            let message = format!("the bar at [{}, {}] does not lie within {}", short(y), short(z), owner.what);
+            let hint = format!("its centre is {} deep, its radius is {}", short(depth), short(radius));
+            return report.error_with(&bars.span, message, hint);
+        }
+        // Hoops enclose bars on the edge of the core.
+        let concrete = usize::from(depth >= depth_of_core * (1.0 - 1e-9));
+        let fibre = |area: f64| Fibre { area, y, z, shear: [[0.0; 3]; 2] };
+        parts[concrete].group.fibres.push(fibre(-area));
+        part.group.fibres.push(fibre(area));
+    }
+    parts.push(part);
+    Some(())
+}
 /// The area of a bar.
 fn area<'d>(owner: &Owner<'d>, bars: &'d words::SectionBars, report: &mut Report<'d>) -> Option<f64> {
     match (&bars.diameter, &bars.area) {

@@ -2,7 +2,7 @@
 
 use super::data::MassKind;
 use super::materials::Materials;
-use super::reinforcement::{SectionPart, is_composite, with_fibres};
+use super::reinforcement::{SectionPart, is_composite, reinforce, require_concrete, with_fibres};
 use super::report::{Owner, Report};
 use base::diagnostic::At;
 use deck::Deck;
@@ -24,7 +24,7 @@ const MOST_FIBRES: usize = 10_000;
 /// The sections of a deck, and the stiffnesses that beams have asked of them so far.
 pub(super) struct Sections<'a, 'd> {
     table: &'d Named<OneOf<words::Section>>,
-    pub(super) materials: &'a Materials<'d>,
+    materials: &'a Materials<'d>,
     /// Section, material, whether it needs a mass and whether it deforms in shear → index in `stiffnesses`, none where there are errors.
     known: HashMap<(usize, Option<usize>, [bool; 2]), Option<usize>>,
     /// Section stiffnesses that beams have asked for.
@@ -79,8 +79,8 @@ impl<'a, 'd> Sections<'a, 'd> {
         if !is_composite(section) {
             return Some(vec![base]);
         }
-        self.require_concrete(made_of, &base.group.law, report)?;
-        self.reinforce((name, section), &*shape, counts, base, needs_mass, report)
+        require_concrete(made_of, &base.group.law, report)?;
+        reinforce(self.materials, (name, section), &*shape, counts, base, needs_mass, report)
     }
 
     /// Index of the stiffness for a beam's section and material; `shear` is true for a beam with shear deformation.
@@ -101,6 +101,11 @@ impl<'a, 'd> Sections<'a, 'd> {
         if direct && let Some((given, _)) = &material {
             let message = format!("section `{}` gives stiffnesses, so {} takes no material", name.value, owner.what);
             return report.error(&given.span, message);
+        }
+        if direct && is_composite(section) {
+            let message =
+                format!("section `{}` gives stiffnesses, so it takes no `bars`, `core` and `cover`", name.value);
+            return report.error_with(&name.span, message, "take shape \"rectangle\" or \"circle\"");
         }
         let material = if direct { None } else { Some(material) };
         let (material_index, numbers) = match material {

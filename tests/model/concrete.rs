@@ -144,6 +144,13 @@ fn wrong_decks_are_told_what_to_change() {
         (bar(r#"material = "rebar", diameter = 0.02, circle = 0.1"#), "needs `count`"),
         (bar(r#"material = "rebar", diameter = 0.02, circle = 0.1, count = 1"#), "`count` must lie between 2 and 1000"),
         (bar(r#"diameter = 0.02, at = [0.0, 0.0]"#), "needs `material`"),
+        (
+            with(
+                "shape = \"rectangle\"\nwidth = 0.4\nheight = 0.5",
+                "shape = \"general\"\narea = 0.2\nmoments = [4e-3, 3e-3]\ntorsion_constant = 5e-3\nshear_areas = [0.16, 0.16]",
+            ),
+            "section `column`",
+        ),
         (with(bars, "cover = 0.04"), "has a `cover`, but no `core`; name the material of the core"),
         (with(bars, "core = \"plain\""), "section `column` needs `cover`"),
         (with(bars, "core = \"plain\"\ncover = 0.2"), "section `column` has no core within a cover of 0.2"),

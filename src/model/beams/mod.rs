@@ -4,6 +4,7 @@ pub mod grading;
 pub mod mass_nodes;
 pub mod paths;
 mod released;
+mod softening;
 pub mod station_file;
 mod stations;
 
@@ -13,7 +14,6 @@ use crate::data::{Beam, BeamElement, Part, PartIndex, PartKind};
 use crate::mesh::MeshElement;
 use crate::own_damping;
 use crate::part_context::PartContext;
-use crate::reinforcement;
 use crate::report::Owner;
 use crate::sections;
 use crate::values::{chosen, flag, keys, vec3};
@@ -95,7 +95,7 @@ fn read_beam<'d>(
     }
     elements.iter_mut().for_each(|element| element.section = section);
     if let Some(yielding) = &yielding {
-        reinforcement::check_lengths(owner, yielding, (&elements, order), cx)?;
+        softening::check_lengths(owner, yielding, (&elements, order), cx)?;
     }
     if let Some(stations) = stations {
         stations.lay(&mut elements, beam, (order, shear), cx)?;
@@ -356,6 +356,25 @@ fn yielding<'d>(
         }
         rule => chosen(rule),
     };
+    let shear = yields_in_shear(owner, beam, &law, cx)?;
+    // A wrong section has been reported.
+    let (of, made_of) = (beam.section.as_ref()?, beam.material.as_ref()?);
+    if !section {
+        return None;
+    }
+    let needs_mass = cx.materials.needs_mass(chosen(&beam.mass));
+    let parts = cx.sections.fibres(of, (made_of, law), needs_mass, cx.report)?;
+    let groups = parts.into_iter().map(|part| part.group).collect();
+    Some(Some(FibreModel { groups, shear, rule, points }))
+}
+
+/// True where shear stress enters the yield condition.
+fn yields_in_shear<'d>(
+    owner: &Owner<'d>,
+    beam: &'d words::Beam,
+    law: &UniaxialLaw,
+    cx: &mut PartContext<'_, 'd>,
+) -> Option<bool> {
     let deforms = flag(&beam.shear, true);
     if let Some(yields) = beam.shear_yields.as_ref().filter(|yields| yields.value && !deforms) {
         let message =
@@ -368,16 +387,7 @@ fn yielding<'d>(
             format!("{} is of a material under normal stress alone: shear and torsion stay elastic", owner.what);
         return cx.report.error_with(&yields.span, message, "leave `shear_yields` out");
     }
-    let shear = has_shear && deforms && flag(&beam.shear_yields, true);
-    // A wrong section has been reported.
-    let (of, made_of) = (beam.section.as_ref()?, beam.material.as_ref()?);
-    if !section {
-        return None;
-    }
-    let needs_mass = cx.materials.needs_mass(chosen(&beam.mass));
-    let parts = cx.sections.fibres(of, (made_of, law), needs_mass, cx.report)?;
-    let groups = parts.into_iter().map(|part| part.group).collect();
-    Some(Some(FibreModel { groups, shear, rule, points }))
+    Some(has_shear && deforms && flag(&beam.shear_yields, true))
 }
 
 /// Section frame of each segment: x along it, y towards the orientation, z = x × y.

@@ -110,6 +110,23 @@ impl FibreModel {
         }
     }
 
+    /// True where bending in the plane of x and z (`along_z`) or of x and y causes no moment out of it: each material balances by itself.
+    pub fn stays_in(&self, along_z: bool) -> bool {
+        let balances = |group: &FibreGroup| {
+            let (mut sums, mut sizes) = ([0.0; 2], [0.0; 2]);
+            for fibre in &group.fibres {
+                let (out, height) = if along_z { (fibre.y, fibre.z) } else { (fibre.z, fibre.y) };
+                for (k, moment) in [out, out * height].into_iter().enumerate() {
+                    sums[k] += fibre.area * moment;
+                    sizes[k] += (fibre.area * moment).abs();
+                }
+            }
+            // Sums of some hundred products round to less.
+            (0..2).all(|k| sums[k].abs() <= 1e-12 * sizes[k])
+        };
+        self.plastic().is_some() || self.groups.iter().all(balances)
+    }
+
     /// The number of fibres.
     pub fn fibres(&self) -> usize {
         self.groups.iter().map(|group| group.fibres.len()).sum()
@@ -123,14 +140,16 @@ impl FibreModel {
         }
     }
 
-    /// Beams of several materials, or of one that has normal stress alone. Points that stand for one length share their fibres.
+    /// Beams of several materials, or of one that has normal stress alone. Points share their fibres where their lengths agree in single
+    /// precision, for lengths of equal elements differ by rounding.
     fn composite<const N: usize>(&self, elements: &[BeamGeometry], setting: BeamSetting) -> Box<dyn ElementBlock> {
         let rule = self.rule.points(self.points);
+        let needs_length = self.groups.iter().any(|group| group.law.needs_length());
         let (mut profiles, mut first) = (HashMap::new(), 0);
         let section = |e: &BeamGeometry, length: f64| {
             let of_point = |weight: &f64| {
-                let own = 0.5 * weight * length;
-                let new = || Arc::new(CompositeProfile::new(&self.groups, own, e.stiffness));
+                let own = if needs_length { (0.5 * weight * length) as f32 } else { 1.0 };
+                let new = || Arc::new(CompositeProfile::new(&self.groups, own.into(), e.stiffness));
                 Arc::clone(profiles.entry(own.to_bits()).or_insert_with(new))
             };
             let section = CompositeSection::new(rule.1.iter().map(of_point).collect(), e.frame, first);

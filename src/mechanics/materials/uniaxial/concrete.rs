@@ -13,7 +13,7 @@
 //! Omitted: rate, and the loss of tensile strength by crushing. Along a step the strain runs straight, so the answer does not depend on its
 //! length.
 
-use super::work;
+use super::work::work;
 
 /// How the end of a line of softening is given.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -185,7 +185,8 @@ impl Concrete {
         let stress = self.compression(crushed)[0];
         let slope =
             if crushed < 0.0 { (stress - self.modulus * self.focus) / (crushed - self.focus) } else { self.modulus };
-        Unloading { slope, from: [crushed, stress], plastic: crushed - stress / slope }
+        let plastic = if stress == 0.0 { crushed } else { crushed - stress / slope };
+        Unloading { slope, from: [crushed, stress], plastic }
     }
 
     /// Where a step starts between the two lines of unloading: tension ends at the plastic strain without stress.

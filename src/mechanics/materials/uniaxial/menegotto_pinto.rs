@@ -9,7 +9,7 @@
 //!
 //! Omitted: buckling and rupture. After a small reversal the curve does not return to the one that it left and runs above it.
 
-use super::work;
+use super::work::work;
 
 /// The parameters of a steel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,11 +41,20 @@ pub struct SteelState {
     target: f64,
     /// Strain and stress at the last reversal.
     reversal: [f64; 2],
-    /// Strain and stress where the two lines meet.
-    meeting: [f64; 2],
+    /// The strain where the two lines meet.
+    meeting: f64,
+    /// The strain at the front of the curve, from which it turns.
+    front: f64,
     /// The accumulated inelastic strain, ∫ |d(ε − σ/E)|.
     accumulated: f64,
 }
+
+/// A way back of so many yield strains belongs to the curve: rounding and the iteration move strains to and fro where a load stays. The error of
+/// the stress is this part of the yield stress.
+const SAME: f64 = 1e-6;
+
+/// Where a reversal lies nearer to the line of hardening, in yield strains, the line is the answer: differences of strains round to 1e-12 of them.
+const LEAST_WAY: f64 = 1e-9;
 
 /// The number of history variables.
 pub const VARIABLES: usize = 11;
@@ -53,18 +62,18 @@ pub const VARIABLES: usize = 11;
 impl SteelState {
     /// The state from its history variables.
     pub fn of(history: &[f64]) -> SteelState {
-        let &[strain, stress, direction, least, most, target, rx, rs, mx, ms, accumulated, ..] = history else {
+        let &[strain, stress, direction, least, most, target, rx, rs, meeting, front, accumulated, ..] = history else {
             return SteelState::default();
         };
-        let (extremes, reversal, meeting) = ([least, most], [rx, rs], [mx, ms]);
-        SteelState { strain, stress, direction, extremes, target, reversal, meeting, accumulated }
+        let (extremes, reversal) = ([least, most], [rx, rs]);
+        SteelState { strain, stress, direction, extremes, target, reversal, meeting, front, accumulated }
     }
 
     /// The history variables.
     pub fn history(&self) -> [f64; VARIABLES] {
-        let SteelState { strain, stress, direction, extremes, target, reversal, meeting, accumulated } = *self;
-        let ([least, most], [rx, rs], [mx, ms]) = (extremes, reversal, meeting);
-        [strain, stress, direction, least, most, target, rx, rs, mx, ms, accumulated]
+        let SteelState { strain, stress, direction, extremes, target, reversal, meeting, front, accumulated } = *self;
+        let ([least, most], [rx, rs]) = (extremes, reversal);
+        [strain, stress, direction, least, most, target, rx, rs, meeting, front, accumulated]
     }
 
     /// The accumulated inelastic strain.
@@ -79,58 +88,61 @@ impl MenegottoPinto {
         self.yield_stress / self.modulus
     }
 
-    /// The curve of a way in `direction` from `from`.
-    fn turned(&self, from: &SteelState, direction: f64) -> SteelState {
-        let yield_strain = self.yield_strain();
+    /// The curve on the way from `from` to `strain`: that of `from`, or a new one where the strain goes back by more than rounding.
+    fn turned(&self, from: &SteelState, strain: f64) -> SteelState {
+        let (E, yield_strain) = (self.modulus, self.yield_strain());
         if from.direction == 0.0 {
-            let (target, meeting) =
-                (direction * yield_strain, [direction * yield_strain, direction * self.yield_stress]);
-            return SteelState { direction, extremes: [-yield_strain, yield_strain], target, meeting, ..*from };
+            let direction = strain.signum();
+            let (target, extremes) = (direction * yield_strain, [-yield_strain, yield_strain]);
+            return SteelState { direction, extremes, target, meeting: target, ..*from };
         }
-        if from.direction == direction {
+        if from.direction * (from.front - strain) <= SAME * yield_strain {
             return *from;
         }
-        let [least, most] = from.extremes;
-        let extremes = [least.min(from.strain), most.max(from.strain)];
+        let (direction, x) = (-from.direction, from.front);
+        let s = self.curve(from, x)[0];
+        let extremes = [from.extremes[0].min(x), from.extremes[1].max(x)];
         let [a1, a2, a3, a4] = self.isotropic;
         let (factor, range, target) = if direction > 0.0 { (a3, a4, extremes[1]) } else { (a1, a2, extremes[0]) };
         let shift = match factor {
             0.0 => 1.0,
             _ => 1.0 + factor * ((extremes[1] - extremes[0]) / (2.0 * range * yield_strain)).powf(0.8),
         };
-        let E = self.modulus;
+        // The line of hardening at the reversal, less the stress there, closes at the rate E − b E.
         let hardening = self.hardening_ratio * E;
-        let (strain, stress) = (direction * yield_strain * shift, direction * self.yield_stress * shift);
-        let x = (stress - hardening * strain - from.stress + E * from.strain) / (E - hardening);
-        let meeting = [x, stress + hardening * (x - strain)];
-        SteelState { direction, extremes, target, reversal: [from.strain, from.stress], meeting, ..*from }
+        let line = direction * shift * (self.yield_stress - hardening * yield_strain) + hardening * x;
+        let meeting = x + (line - s) / (E - hardening);
+        SteelState { direction, extremes, target, reversal: [x, s], meeting, ..*from }
     }
 
     /// Stress and slope at a strain on the curve of `at`.
     fn curve(&self, at: &SteelState, strain: f64) -> [f64; 2] {
-        let [R0, c1, c2] = self.curvature;
-        let xi = ((at.target - at.meeting[0]) / self.yield_strain()).abs();
+        let ([R0, c1, c2], b, E) = (self.curvature, self.hardening_ratio, self.modulus);
+        let [x, s] = at.reversal;
+        let way = at.meeting - x;
+        if at.direction * way <= LEAST_WAY * self.yield_strain() {
+            // The reversal lies on the line of hardening, or beyond.
+            return [s + b * E * (strain - x), b * E];
+        }
+        let xi = ((at.target - at.meeting) / self.yield_strain()).abs();
         let R = R0 * (1.0 - c1 * xi / (c2 + xi));
-        let way = at.meeting[0] - at.reversal[0];
-        let rise = at.meeting[1] - at.reversal[1];
-        let b = self.hardening_ratio;
-        let part = (strain - at.reversal[0]) / way;
+        let part = (strain - x) / way;
         let sum = 1.0 + part.abs().powf(R);
         let root = sum.powf(1.0 / R);
-        [at.reversal[1] + rise * (b * part + (1.0 - b) * part / root), (b + (1.0 - b) / (sum * root)) * rise / way]
+        [s + E * way * (b * part + (1.0 - b) * part / root), E * (b + (1.0 - b) / (sum * root))]
     }
 
     /// The state at `strain` on a straight way from `from`, and its slope.
     pub fn moved(&self, from: &SteelState, strain: f64) -> (SteelState, f64) {
-        let way = strain - from.strain;
-        if way == 0.0 {
-            let slope = if from.direction == 0.0 { self.modulus } else { self.curve(from, strain)[1] };
-            return (*from, slope);
+        if from.direction == 0.0 && strain == 0.0 {
+            return (*from, self.modulus);
         }
-        let on = self.turned(from, way.signum());
+        let on = self.turned(from, strain);
         let [stress, slope] = self.curve(&on, strain);
-        let inelastic = way - (stress - from.stress) / self.modulus;
-        (SteelState { strain, stress, accumulated: from.accumulated + inelastic.abs(), ..on }, slope)
+        let turns = on.direction != from.direction;
+        let front = if turns || on.direction * (strain - on.front) > 0.0 { strain } else { on.front };
+        let inelastic = strain - from.strain - (stress - from.stress) / self.modulus;
+        (SteelState { strain, stress, front, accumulated: from.accumulated + inelastic.abs(), ..on }, slope)
     }
 
     /// The elastic energy per volume.
@@ -141,7 +153,7 @@ impl MenegottoPinto {
     /// The energy per volume dissipated on the way between two states: the work less the change of the elastic energy. It is negative
     /// where the curve bends before the stress has changed its sign.
     pub fn dissipated(&self, from: &SteelState, to: &SteelState) -> f64 {
-        let work = work([from.strain, to.strain], [to.meeting[0]], |strain| self.moved(from, strain).0.stress);
+        let work = work([from.strain, to.strain], [to.meeting, from.front], |strain| self.moved(from, strain).0.stress);
         work - (self.energy(to) - self.energy(from))
     }
 }

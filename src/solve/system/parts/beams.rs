@@ -7,7 +7,7 @@ use crate::system::inertia::ConsistentMass;
 use crate::system::plane::MotionPlane;
 use crate::tolerances::plane::SMALL;
 use base::math::{Mat3, Vec3, quadrature};
-use mechanics::elements::beam::{BeamGeometry, BeamSetting, elastic_beams};
+use mechanics::elements::beam::{BeamGeometry, BeamSetting, FibreModel, elastic_beams};
 use mechanics::elements::{ElementBlock, Force, IntegrationPoint};
 use mechanics::sections::{self, Stiffness};
 use mechanics::state::Configuration;
@@ -41,6 +41,11 @@ impl Assembled for Beam {
     }
 
     fn stays_in(&self, plane: &MotionPlane, stiffnesses: &[Stiffness]) -> bool {
+        let fibres =
+            |model: &FibreModel| in_plane(self, Some(plane.normal)).is_none_or(|along_z| model.stays_in(along_z));
+        if !self.yielding.as_ref().is_none_or(fibres) {
+            return false;
+        }
         let points = self.elements.iter().flat_map(|e| (0..self.order).map(|g| e.at_point(g)));
         points.into_iter().all(|at| section_stays_in(plane, &at.frame, &stiffnesses[at.section]))
     }
