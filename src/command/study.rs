@@ -87,7 +87,7 @@ pub struct StudyArgs {
     /// Horizontal axis of the picture: seconds, or counts, which do not scatter
     #[arg(long, value_name = "COST", value_enum, default_value_t)]
     axis: Cost,
-    /// Print only the deck lines of the cheapest setting with this error; exit code 5 if there is none
+    /// Print only the deck lines of the cheapest setting with this error; exit code 5 if there is none. With `--rigidify` the fastest form of each part
     #[arg(long, value_name = "ERROR", value_parser = positive, conflicts_with = "wanted_error")]
     recommend: Option<f64>,
     /// Runs of each setting
@@ -96,8 +96,8 @@ pub struct StudyArgs {
     /// Seconds after which a setting is not run again
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = positive)]
     budget: f64,
-    /// Instead of a grid of settings, run with each part rigid in turn: its share of the elastic energy, error, time saved
-    #[arg(long, conflicts_with_all = ["schemes", "methods", "time_steps", "error_tolerances", "halvings", "iteration_tolerances", "meshes", "beam_orders", "reference", "finest", "wanted_error", "axis", "recommend"])]
+    /// Instead of a grid of settings, run with each part rigid and reduced in turn: its share of the elastic energy, error, time saved
+    #[arg(long, conflicts_with_all = ["schemes", "methods", "time_steps", "error_tolerances", "halvings", "iteration_tolerances", "meshes", "beam_orders", "reference", "finest", "wanted_error", "axis"])]
     rigidify: bool,
     /// Threads of each run, from 1 to 64
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=MAX_THREADS))]
@@ -185,7 +185,7 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
     let (model, options) = (&loaded.model, args.options(&folder));
     let _lock = FolderLock::make(&folder).map_err(|error| exit(error.into(), &loaded.source))?;
     let outcome = if args.rigidify {
-        rigidify(model, &deck, &options, &stop).map(Outcome::of_advice)
+        rigidify(model, &deck, &options, &stop).map(|advice| Outcome::of_advice(&advice, args.recommend))
     } else {
         studied(model, &deck, &options, &stop).map(|found| Outcome::of_grid(&found, &deck, args.recommend))
     };
@@ -222,9 +222,9 @@ struct Outcome {
 }
 
 impl Outcome {
-    fn of_advice(advice: StudyAdvice) -> Outcome {
+    fn of_advice(advice: &StudyAdvice, wanted: Option<f64>) -> Outcome {
         let any = advice.base.status == RunStatus::Done;
-        Outcome { text: advice.text(), stopped: advice.stopped, any, lacking: None }
+        Outcome { text: advice.text(wanted), stopped: advice.stopped, any, lacking: None }
     }
 
     fn of_grid(found: &Found, deck: &Deck, wanted: Option<f64>) -> Outcome {

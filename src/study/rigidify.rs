@@ -1,5 +1,5 @@
-//! The price and the gain of making a part rigid. The share of each part in the elastic energy suggests candidates; a run with that part
-//! rigid measures the error and the time.
+//! The price and the gain of making a part rigid or reduced. The share of each part in the elastic energy suggests candidates; a run with
+//! that part rigid, and runs with it reduced to a few modes, measure the error and the time.
 
 use super::advice::{AdvisedPart, StudyAdvice};
 use super::grid::{SAMPLES, output};
@@ -22,18 +22,23 @@ use std::sync::atomic::AtomicBool;
 /// The table that is written besides the runs.
 const TABLE: &str = "rigidify.csv";
 
-/// A part of the deck, before anything is known of it.
+/// The numbers of modes of reduced parts.
+const MODES: [usize; 4] = [5, 10, 20, 40];
+
+/// A part of the deck in another form, before anything is known of it.
 struct Candidate {
     kind: &'static str,
     name: String,
-    /// The override that makes it rigid.
+    /// The entry of the part that makes it so: `rigid = true`.
+    form: String,
+    /// The override that makes it so.
     set: Option<String>,
 }
 
 /// For each part, by kind and name, the largest share in the elastic energy and that over all times.
 type Shares = HashMap<(String, String), [f64; 2]>;
 
-/// Runs the original deck and one with each part rigid, and writes rigidify.csv. Raising `stop` ends it with the runs that are complete.
+/// Runs the original deck, one with each part rigid, and some with it reduced, and writes rigidify.csv. Raising `stop` ends it with the runs that are complete.
 ///
 /// # Errors
 /// There is no part that could be rigid or nothing to measure errors on, or a file cannot be read or written.
@@ -92,7 +97,7 @@ fn jobs(candidates: &[Candidate], options: &Options, common: &[String], time_ste
     let base = job("as it is".to_owned(), format!("{RUNS}/{AS_IT_IS}"), Some(sets(&[])));
     let rigid = candidates.iter().enumerate().map(|(i, candidate)| {
         let own = candidate.set.as_ref().map(|set| sets(std::slice::from_ref(set)));
-        job(format!("{} rigid", candidate.name), format!("{RUNS}/{RIGID}{}", i + 1), own)
+        job(format!("{} {}", candidate.name, candidate.form), format!("{RUNS}/{RIGID}{}", i + 1), own)
     });
     std::iter::once(base).chain(rigid).collect()
 }
@@ -116,7 +121,7 @@ fn part(candidate: Candidate, run: Option<StudyRun>, base: &StudyRun, shares: &S
         RunStatus::Done => shares.get(&key).copied().unwrap_or([0.0; 2]).map(Some),
         _ => [None; 2],
     };
-    let rigid = match (run, &candidate.set) {
+    let run = match (run, &candidate.set) {
         (Some(mut run), _) => {
             if run.status == RunStatus::Done && base.status == RunStatus::Done {
                 let error = |of: &dyn Fn(usize) -> bool| history::error(&run.history, &base.history, count, of);
@@ -128,7 +133,7 @@ fn part(candidate: Candidate, run: Option<StudyRun>, base: &StudyRun, shares: &S
         (None, None) => Err("a bar has no inertia about itself, so it cannot be a body".to_owned()),
         (None, Some(_)) => Err("not run".to_owned()),
     };
-    AdvisedPart { kind: candidate.kind, name: candidate.name, peak_share, mean_share, rigid }
+    AdvisedPart { kind: candidate.kind, name: candidate.name, form: candidate.form, peak_share, mean_share, run }
 }
 
 /// The parts that deform, and belong to no body.
@@ -140,12 +145,20 @@ fn candidates(deck: &Deck) -> Vec<Candidate> {
             && !part.is_rigid()
             && !of_bodies.contains(&part.label().as_str())
     };
-    let candidate = |part: DeckPart| Candidate {
-        kind: part.at.kind.word(),
-        name: part.label(),
-        set: part.table.rigid().map(|_| format!("{}.rigid=true", part.table_path())),
+    let forms = |part: DeckPart| {
+        let reduced = MODES.map(|modes| format!("reduced = {modes}"));
+        // A bar has neither form.
+        let count = if part.table.rigid().is_some() { 1 + MODES.len() } else { 1 };
+        let forms = std::iter::once("rigid = true".to_owned()).chain(reduced).take(count);
+        let candidate = |form: String| Candidate {
+            kind: part.at.kind.word(),
+            name: part.label(),
+            set: part.table.rigid().map(|_| format!("{}.{}", part.table_path(), form.replace(' ', ""))),
+            form,
+        };
+        forms.map(candidate).collect::<Vec<_>>()
     };
-    deck.parts().filter(is_candidate).map(candidate).collect()
+    deck.parts().filter(is_candidate).flat_map(forms).collect()
 }
 
 /// Reads parts.csv: for each part, by kind and name, its largest energy and its energy over all times, each divided by the energy of all

@@ -395,7 +395,18 @@ fn the_advisor_measures_what_rigid_parts_do() {
     let folder = folder(STRIP);
     let (text, _) = study(
         folder.path(),
-        &["--rigidify", "--samples", "50", "--repeats", "1", "--quiet", "--quantities", "tip.uz"],
+        &[
+            "--rigidify",
+            "--recommend",
+            "1e-2",
+            "--samples",
+            "50",
+            "--repeats",
+            "1",
+            "--quiet",
+            "--quantities",
+            "tip.uz",
+        ],
         0,
     );
     let rows = table(&folder.path().join("x.study/rigidify.csv"));
@@ -423,6 +434,12 @@ fn the_advisor_measures_what_rigid_parts_do() {
     // The same bytes from the same deck, so the same error but for the rounding of the sum.
     assert!((number(of("end"), "error") / error - 1.0).abs() < 1e-12);
     assert!(of("stay")["reason"].contains("no inertia"), "{text}");
+    // The elastic end keeps five modes and more, whose error falls below that of a rigid end.
+    let forms: Vec<&str> = rows.iter().filter(|row| row["part"] == "end").map(|row| row["form"].as_str()).collect();
+    assert_eq!(forms, ["rigid = true", "reduced = 5", "reduced = 10", "reduced = 20", "reduced = 40"]);
+    let reduced = rows.iter().find(|row| row["part"] == "end" && row["form"] == "reduced = 20").unwrap();
+    assert!(number(reduced, "error") < number(of("end"), "error"), "{text}");
+    assert!(text.contains("for an error of 1e-2") && text.contains("bar `stay`: as it is"), "{text}");
     assert!(text.contains("(as it is)"), "{text}");
 }
 
