@@ -127,12 +127,12 @@ def compared(name: str, asked: float, exact: dict[str, History]) -> tuple[float,
         return difference(displacements(done.folder), exact[name]), done.report, seconds
 
 
-def best_fixed(name: str, asked: float) -> float:
-    """Least processor seconds of three runs with the best equal steps that scripts/speed.py has found."""
+def best_fixed(name: str, asked: float) -> int:
+    """The iterations of the best equal steps that scripts/speed.py has found."""
     (mesh, division), scene = BEST[name][asked], SCENES[name]
     sets = [*(scene.mesh(*mesh) if mesh else []), *scene.step(division), "expect=[]", "output.energy=false"]
     with tempfile.TemporaryDirectory() as folder:
-        return min(timed(scene.deck, sets, Path(folder))[1] for _ in range(3))
+        return run(scene.deck, sets, Path(folder)).report["counts"]["iterations"]
 
 
 def line(name: str, asked: float, error: float, report: dict, seconds: float) -> str:
@@ -140,8 +140,8 @@ def line(name: str, asked: float, error: float, report: dict, seconds: float) ->
     mesh = "" if accuracy["mesh"] is None else f"{accuracy['mesh']:.1e}"
     steps = (report.get("step_error") or {}).get("estimate") or accuracy.get("load_steps")
     steps = "" if steps is None else f"{steps:.1e}"
-    best = f"{seconds / best_fixed(name, asked):.1f}" if asked in BEST.get(name, {}) else ""
     parts = iterations(report)
+    best = f"{sum(parts) / best_fixed(name, asked):.1f}" if asked in BEST.get(name, {}) else ""
     return (
         f"| {name} | {asked:.0e} | {error:.1e} | {error / asked:.2f} | {mesh} | {steps} | {chosen(report)} |"
         f" {accuracy['pilot_runs']} | {' + '.join(str(part) for part in parts)} = {sum(parts)} | {seconds:.2f} | {best} |"

@@ -113,21 +113,6 @@ fn pilot_runs_share_long_steps() {
     assert!(of_pilots < 0.4 * number("/counts/steps"), "{of_pilots}");
 }
 
-/// A checkpoint of another run is refused before the pilot runs.
-#[test]
-fn another_checkpoint_is_refused_before_pilot_runs() {
-    let folder = tempfile::tempdir().unwrap();
-    let beam = deck("flying_beam");
-    let sets = ["analysis.accuracy=1e-2", "analysis.time_step=auto", "output.checkpoint=1.0", "expect=[]"];
-    let ran = rdsolve(folder.path(), &with("run", &beam, &sets));
-    assert!(ran.status.success(), "{}", text(&ran.stderr));
-    let other = [&with("run", &beam, &sets)[..], &["--set", "analysis.least_step=1e-9", "--resume"]].concat();
-    let refused = rdsolve(folder.path(), &other);
-    let said = [text(&refused.stdout), text(&refused.stderr)].concat();
-    assert_eq!(refused.status.code(), Some(2), "{said}");
-    assert!(said.contains("is not of this run") && !said.contains("pilot run"), "{said}");
-}
-
 /// A stiffness that the deck leaves open is raised until the penetration hardly matters; the values are those of a rigid stop.
 #[test]
 fn open_contacts_become_stiffer() {
