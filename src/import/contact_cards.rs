@@ -40,7 +40,7 @@ pub fn interaction(im: &mut Importer, block: &KeywordBlock) {
     let Some(name) = block.keyword.value("NAME").map(str::to_lowercase) else {
         return im.refuse(block.keyword.line, "*SURFACE INTERACTION needs NAME=");
     };
-    im.contacts.interactions.push(InteractionCard { name, friction: None });
+    im.constraints.contacts.interactions.push(InteractionCard { name, friction: None });
 }
 
 /// `*FRICTION`: a coefficient, or with EXPONENTIAL DECAY two and their decay.
@@ -63,7 +63,7 @@ pub fn friction(im: &mut Importer, block: &KeywordBlock) {
         let why = "coefficients of friction are 0 or more, the one while it slips is at most the one while it sticks, and so is the decay 0 or more";
         return im.refuse(line, why);
     }
-    match im.contacts.interactions.last_mut() {
+    match im.constraints.contacts.interactions.last_mut() {
         Some(law) => law.friction = Some((friction, line)).filter(|_| first > 0.0),
         None => im.refuse(line, "no *SURFACE INTERACTION stands before this line"),
     }
@@ -111,6 +111,11 @@ pub fn pair(im: &mut Importer, block: &KeywordBlock) {
             [slave, master] => [slave.clone(), master.clone()],
             _ => [targets[0].clone(), targets[0].clone()],
         };
-        im.contacts.pairs.push(ContactCard { line: data.line, interaction: interaction.clone(), surfaces, is_thin });
+        im.constraints.contacts.pairs.push(ContactCard {
+            line: data.line,
+            interaction: interaction.clone(),
+            surfaces,
+            is_thin,
+        });
     }
 }

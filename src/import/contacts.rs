@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 
 /// Adds the contacts: a table for each part that is touched.
 pub fn contacts(build: &mut Build) {
-    for card in build.im.contacts.pairs.clone() {
+    for card in build.im.constraints.contacts.pairs.clone() {
         let [slave, master] = &card.surfaces;
         let (Some(touching), Some(touched)) = (names_of(build, slave), pieces_of(build, master)) else { continue };
         if touching.is_empty() || touched.is_empty() {
@@ -22,7 +22,7 @@ pub fn contacts(build: &mut Build) {
             }
             continue;
         }
-        let laws = &build.im.contacts.interactions;
+        let laws = &build.im.constraints.contacts.interactions;
         let Some(law) = laws.iter().rfind(|law| law.name == card.interaction).cloned() else {
             let why = format!("no surface interaction is named `{}`", card.interaction);
             build.im.refuse(card.line, &why);
@@ -81,7 +81,7 @@ fn pair(build: &mut Build, card: &ContactCard, touching: &[String], (piece, law)
 /// Elements of the surfaces in contact: parts are cut there, and rigid elements have faces.
 pub fn marks(build: &Build) -> Vec<BTreeSet<usize>> {
     let (scopes, mesh) = (&build.im.scopes, &build.mesh);
-    let surfaces = build.im.contacts.pairs.iter().flat_map(|card| &card.surfaces);
+    let surfaces = build.im.constraints.contacts.pairs.iter().flat_map(|card| &card.surfaces);
     let sets = surfaces.filter_map(|surface| scopes.surface(surface)).flatten().filter(|(_, side)| side != "NODE");
     sets.filter_map(|(set, _)| Some(mesh.cell_indices(scopes, &set)?.into_iter().collect())).collect()
 }

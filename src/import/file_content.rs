@@ -1,5 +1,6 @@
 //! The content of a file, before sets and instances are resolved.
 
+use crate::contact_cards::ContactCards;
 use crate::scopes::NamedTarget;
 use crate::tied_nodes::NodalAxes;
 use base::math::Vec3;
@@ -228,6 +229,8 @@ pub struct ConstraintCards {
     pub ties: Vec<TieCard>,
     /// Couplings that spread forces.
     pub distributing: Vec<DistributingCard>,
+    /// Contacts.
+    pub contacts: ContactCards,
     /// The coupling at hand.
     pub open: Option<OpenCoupling>,
 }

@@ -1,6 +1,5 @@
 //! The content of a file read so far, and how its lines are read.
 
-use crate::contact_cards::ContactCards;
 use crate::dialect::Dialect;
 use crate::file_content::{
     AmplitudeCard, ConnectorCards, ConstraintCards, MaterialCards, PropertyCard, SectionCard, StepCards,
@@ -41,8 +40,6 @@ pub struct Importer<'a, 't> {
     pub properties: Vec<PropertyCard>,
     /// Rigid bodies, couplings and other constraints.
     pub constraints: ConstraintCards,
-    /// Contacts.
-    pub contacts: ContactCards,
     /// Connectors.
     pub connectors: ConnectorCards,
     /// Functions of time.
@@ -67,7 +64,6 @@ impl<'a, 't> Importer<'a, 't> {
             thicknesses: Vec::new(),
             properties: Vec::new(),
             constraints: ConstraintCards::default(),
-            contacts: ContactCards::default(),
             connectors: ConnectorCards::default(),
             amplitudes: Vec::new(),
             steps: StepCards::default(),

@@ -40,7 +40,7 @@ fn has_linear_parts(im: &Importer) -> bool {
     let is_plastic = im.materials.list.iter().any(|material| !material.plastic.is_empty());
     let opens = im.properties.iter().any(|card| card.is_nonlinear || card.of == PropertyOf::Gap);
     let is_slack = im.materials.list.iter().any(|material| material.no_compression.is_some());
-    !is_plastic && !opens && !is_slack && im.contacts.pairs.is_empty()
+    !is_plastic && !opens && !is_slack && im.constraints.contacts.pairs.is_empty()
 }
 
 /// True where a degree of freedom is held or freed in a later step.
