@@ -14,24 +14,6 @@ use std::path::Path;
 /// Entries of a deck that a checkpoint does not depend on; the end of the run is compared separately.
 const FREE: [[&str; 2]; 2] = [["analysis", "end_time"], ["output", "checkpoint"]];
 
-/// Where a run begins.
-pub enum Begins {
-    /// At t = 0.
-    Anew,
-    /// At a checkpoint.
-    At(Box<Checkpoint>),
-}
-
-impl Begins {
-    /// The checkpoint, if there is one.
-    pub fn checkpoint(self) -> Option<Checkpoint> {
-        match self {
-            Begins::Anew => None,
-            Begins::At(checkpoint) => Some(*checkpoint),
-        }
-    }
-}
-
 /// The digest of the text of a deck on which a checkpoint depends.
 pub fn deck_digest(text: &str) -> String {
     hex(&Sha256::digest(what_must_stay(text)))
@@ -75,7 +57,7 @@ fn what_must_stay(text: &str) -> String {
     deck.to_string()
 }
 
-/// Reads the checkpoint of a folder for a run of this origin; `None` where there is none.
+/// Reads the checkpoint of a folder for a run of this origin; `None` where there is none. It is read before pilot runs, which may take long.
 ///
 /// # Errors
 /// [`Exit::Usage`] if the checkpoint is of another run, [`Exit::InputOutput`] if it cannot be read. The reason has been shown.
@@ -93,7 +75,7 @@ pub fn checkpoint_in(folder: &Path, origin: &CheckpointOrigin) -> Result<Option<
     Ok(checkpoint)
 }
 
-/// Where a run of this origin begins, and of a deck with this hash, by the checkpoint of its folder.
+/// The checkpoint where a run of this origin goes on, and of a deck with this hash; `None` where it begins at t = 0.
 ///
 /// # Errors
 /// [`Exit::Usage`] if the folder holds something else. A finished run returns its exit code, including [`Exit::Done`]. The reason has been
@@ -102,7 +84,7 @@ pub fn resume(
     folder: &Path,
     checkpoint: Option<Checkpoint>,
     (origin, hash): (&CheckpointOrigin, &str),
-) -> Result<Begins, Exit> {
+) -> Result<Option<Checkpoint>, Exit> {
     let place = folder.display();
     if let Some(checkpoint) = checkpoint {
         let (then, now) = (&checkpoint.origin.instructions, &origin.instructions);
@@ -113,7 +95,7 @@ pub fn resume(
         // A run that is over may still have to write its result.
         let is_done = checkpoint.origin.is_over && checkpoint.origin.end_time == origin.end_time;
         if !is_done || !folder.join(result_json::NAME).exists() {
-            return Ok(Begins::At(Box::new(checkpoint)));
+            return Ok(Some(checkpoint));
         }
     }
     if let Some(ended) = ended(folder, (hash, origin)) {
@@ -129,7 +111,7 @@ pub fn resume(
         require_free(folder, holds_run(folder).unwrap_or(false))?;
     }
     say(&format!("there is no checkpoint in `{place}` yet: the run begins at t = 0"));
-    Ok(Begins::Anew)
+    Ok(None)
 }
 
 /// Repeats the last message of a finished run; `None` if there is no result.

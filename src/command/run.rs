@@ -16,7 +16,7 @@ use super::folder::{named_after, require_free};
 use super::load::{Loaded, Unfit, build, load, plan, prepare, too_large};
 use super::memory::{Forecast, require_memory};
 use super::mesh_error::{Judged, of_file, tell_mesh_error};
-use super::resume::{Begins, checkpoint_in, checkpoint_origin, deck_digest, resume};
+use super::resume::{checkpoint_in, checkpoint_origin, deck_digest, resume};
 use super::signals::{EndAtOnce, end_with_input, stop_on_signals};
 use super::stages::{StageRunner, StagesTold};
 use super::verdict::{End, end, error_bars_in_words, line};
@@ -57,13 +57,9 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     }
     let threads = use_threads(args.threads);
     let origin = checkpoint_origin(&loaded, deck_digest(&loaded.source.text), args.mesh_error);
-    // Pilot runs may take long, and a checkpoint of another run makes them useless.
-    let checkpoint = if args.resume { checkpoint_in(&folder, &origin)? } else { None };
+    let checkpoint = args.resume.then(|| checkpoint_in(&folder, &origin)).transpose()?;
     let (mut loaded, chosen, pilots_s) = settled(loaded, threads, args.quiet)?;
-    let begins = match args.resume {
-        true => resume(&folder, checkpoint, (&origin, &loaded.hash))?,
-        false => Begins::Anew,
-    };
+    let checkpoint = checkpoint.map(|checkpoint| resume(&folder, checkpoint, (&origin, &loaded.hash))).transpose()?;
     let planning = Instant::now();
     if !args.quiet {
         show(&loaded.warnings, &loaded.source);
@@ -98,7 +94,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     let computed = stop_on_signals(&stop).and_then(|()| {
         drop(reading);
         let _lock = FolderLock::make(&folder)?;
-        job.compute(&mut run, begins.checkpoint())
+        job.compute(&mut run, checkpoint.flatten())
     });
     let (end, result, told) = computed.map_err(|error| {
         complain(&format!("cannot write results: {error}"));
