@@ -194,8 +194,9 @@ impl<'a> Run<'a> {
             }
         }
         self.recorder.is_comparison = true;
-        // Times of output inside steps would cost an equilibrium each.
-        let make = if like.is_some() && inside { Schedule::of_trial } else { Schedule::new };
+        // Times of output inside steps would cost an equilibrium each. A trial ends at its last time, so that has to be the end of the run.
+        let is_whole = times.last().is_some_and(|last| *last >= model.analysis.end_time);
+        let make = if like.is_some() && inside && is_whole { Schedule::of_trial } else { Schedule::new };
         let schedule = make(model, times.into_iter(), inside).with_ends(ends);
         observer.begin_comparison();
         let mut unseen = Unseen::new(observer);

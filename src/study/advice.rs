@@ -5,6 +5,9 @@ use super::columns::columns;
 use super::run::{RunStatus, StudyRun};
 use model::study::Quantity;
 
+/// Largest time of a form over that of the deck to be advised: two runs of one deck differ by a few per cent.
+const MOST_TIME: f64 = 0.95;
+
 /// A beam, bar or shell that deforms.
 #[derive(Debug, Clone)]
 pub struct AdvisedPart {
@@ -97,17 +100,20 @@ impl StudyAdvice {
         format!("{}\nerror: against the unchanged deck, {count} {what} at {samples} times\n{advice}", columns(&rows, 2))
     }
 
-    /// The form of each part that takes the least time with this error; a part stays whole where none is faster.
+    /// The form of each part that takes the least time with this error. A part stays as it is where no form is clearly faster.
     fn advice(&self, wanted: f64) -> String {
         let mut out = format!("\nfor an error of {wanted:.0e} of each part alone; errors of several parts add up\n");
         for parts in self.parts.chunk_by(|a, b| (a.kind, &a.name) == (b.kind, &b.name)) {
             let fits = |part: &&AdvisedPart| {
                 let run = part.run.as_ref().ok().filter(|run| run.error.is_some_and(|error| error <= wanted));
-                run.is_some_and(|run| run.loop_s < self.base.loop_s)
+                run.is_some_and(|run| run.loop_s < MOST_TIME * self.base.loop_s)
             };
             let time = |part: &AdvisedPart| part.run.as_ref().map_or(f64::INFINITY, |run| run.loop_s);
             let least = parts.iter().filter(fits).min_by(|a, b| time(a).total_cmp(&time(b)));
             let choice = match least.and_then(|part| Some((part, part.run.as_ref().ok()?))) {
+                None if !parts.iter().any(|part| part.run.as_ref().is_ok_and(|run| run.error.is_some())) => {
+                    "no other form was measured".to_owned()
+                }
                 None => "as it is".to_owned(),
                 Some((part, run)) => {
                     let (error, time) = (run.error.unwrap_or_default(), run.loop_s / self.base.loop_s);

@@ -364,4 +364,7 @@ fn files_that_are_not_read_are_named() {
         let said = faults(&format!("{first}\n1 2 3\n"), &select(&[], None));
         assert_eq!(said, [format!("this is a file of {kind}, which rdsolve does not read")]);
     }
+    // A comment that speaks of them is none of them.
+    let one_column = "# uncorrected accelerogram\n1\n3\n";
+    assert_eq!(points(one_column, &select(&[], Some(0.5))), [[0.0, 1.0], [0.5, 3.0]]);
 }

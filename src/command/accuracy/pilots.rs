@@ -15,10 +15,10 @@ use std::sync::atomic::AtomicBool;
 const INTERVALS: usize = 64;
 /// Ratio of the step tolerance of the first run to the error asked for: steps about twice as long by a scheme of third order, ...
 const LOOSER: f64 = 8.0;
-/// ... up to a tolerance with which steps still resolve the motion.
+/// ... up to a tolerance with which the steps of the first run still resolve the motion.
 const LOOSEST: f64 = 0.05;
-/// Ratio of the tolerances of later runs and the first. Only steps with four times the error of the first mesh become shorter, so meshes that are
-/// nearly as good take the same steps.
+/// Ratio of the tolerances of later runs and the first. These runs take the steps of the first one and shorten only steps with four times its
+/// error.
 const SLACK: f64 = 4.0;
 /// Largest number of times of comparison of a static analysis.
 const LOAD_TIMES: usize = 32;

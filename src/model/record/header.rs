@@ -67,16 +67,10 @@ pub fn unread(path: &str, bytes: &[u8]) -> Option<Fault> {
     let mut text = Text::new(path, bytes);
     let line = text.line()?;
     let words = String::from_utf8_lossy(line.bytes).to_ascii_uppercase();
-    let kind = match () {
-        () if words.contains("(FORMAT V") => "COSMOS",
-        () if words
-            .trim_start_matches(|c: char| c.is_ascii_digit() || c == ' ')
-            .trim_end()
-            .ends_with("CORRECTED ACCELEROGRAM") =>
-        {
-            "SMC"
-        }
-        () => return None,
+    let kind = match words.trim_start_matches(|c: char| c.is_ascii_digit() || c == ' ').trim_end() {
+        words if words.contains("(FORMAT V") => "COSMOS",
+        "CORRECTED ACCELEROGRAM" | "UNCORRECTED ACCELEROGRAM" => "SMC",
+        _ => return None,
     };
     let fault = text.fault(format!("this is a file of {kind}, which rdsolve does not read"), line.number);
     Some(Box::new(fault.hint("write its accelerations to a file of one column, and give `time_step` and `unit`")))
