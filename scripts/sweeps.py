@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a case of a sweep costs beside its steps.  scripts/sweeps.py PROGRAM [OTHER] [--cases 1000] [--runs 3]
+"""Measures the processor time of a sweep per case.  scripts/sweeps.py PROGRAM [OTHER] [--cases 1000] [--runs 3]
 
 Sweeps the mass of the block in decks/block_on_cantilever (one element of order 3, steps of 10 ms) on one core, with all tables kept and
 with `keep = "summary"`, and runs the programs in turn: least processor time over the runs, and the time of the loops of the same run.

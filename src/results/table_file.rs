@@ -1,7 +1,7 @@
 //! A comma separated file that grows by whole rows, without allocating.
 //!
-//! Rows collect in memory, and one call writes all of them: a call for each page would take longer than to write the numbers. If the file
-//! cannot grow, it is cut back to its last whole row. A run that is killed during the call may tear a row; readers report it. The csv crate
+//! Rows collect in memory, and one call writes all of them: a call for each page takes longer than formatting the numbers. If the file
+//! cannot grow, it is cut back to its last whole row. A run that is killed during the call may tear a row, which readers omit. The csv crate
 //! is for readers: its writer hands over whatever fills its buffer.
 
 use super::disk::{at, create, is_same};
@@ -172,7 +172,13 @@ impl TableFile {
     fn cut_back(&mut self) -> u64 {
         let grown = self.file.metadata().map_or(0, |file| file.len().saturating_sub(self.written)) as usize;
         let taken = &self.rows.bytes()[..grown.min(self.rows.bytes().len())];
-        let whole = taken.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end as u64 + 1);
+        let (mut whole, mut is_quoted) = (0, false);
+        for (at, byte) in (1..).zip(taken) {
+            is_quoted ^= *byte == b'"';
+            if *byte == b'\n' && !is_quoted {
+                whole = at;
+            }
+        }
         // A shorter file always has room.
         let _ = self.file.set_len(self.written + whole);
         whole

@@ -107,7 +107,8 @@ fn pilot_runs_share_long_steps() {
     let ran = rdsolve(folder.path(), &with("run", &block, &[&sets[..], &mesh].concat()));
     assert!(ran.status.success(), "{}", text(&ran.stderr));
     let result = result(folder.path());
-    let number = |path: &str| result.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("{path}: {result}"));
+    let number =
+        |path: &str| result.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("{path}: {result}"));
     assert!(number("/accuracy/pilot_runs") >= 3.0, "{result}");
     let of_pilots = number("/accuracy/pilot_steps") / number("/accuracy/pilot_runs");
     assert!(of_pilots < 0.4 * number("/counts/steps"), "{of_pilots}");

@@ -23,19 +23,19 @@ pub fn find(
     (weights, held): (TangentWeights, Option<&HeldByForces>),
     length: f64,
 ) -> Option<(usize, usize)> {
-    let is_resisted = |mode: &Mode| {
+    let is_strained = |mode: &Mode| {
         let mut motions = mode.motions(dofs);
         system.project(now.nodes, &mut motions);
-        opens_joints(system, now, &motions, length)
-            || strains_elements(system, now, weights, &motions, length)
-            || held.is_some_and(|held| held.resist(mode))
+        opens_joints(system, now, &motions, length) || strains_elements(system, now, weights, &motions, length)
     };
     let mode = Mode::scattered(dofs).softened(solver, dofs, length, FIRST_ITERATIONS)?;
-    if is_resisted(&mode) {
+    if is_strained(&mode) {
         return None;
     }
+    // Forces hold and push parts with stiffnesses of one size, so the mode has to be pure before they decide.
     let mode = mode.softened(solver, dofs, length, ITERATIONS - FIRST_ITERATIONS)?;
-    if is_resisted(&mode) { None } else { mode.largest(dofs) }
+    let is_resisted = is_strained(&mode) || held.is_some_and(|held| held.resist(&mode));
+    if is_resisted { None } else { mode.largest(dofs) }
 }
 
 /// True if a joint resists the motion because the motion violates its constraint equations.

@@ -65,7 +65,7 @@ impl LinearEquations {
             Ok(false) => return Err(Failure::Stopped),
             Err(singular) => return Err(mechanisms.singular(cx, &now, singular.row, openings)),
         }
-        // All that follows are solutions.
+        // No factorization follows, only solutions.
         matrix.solver.rest();
         let n = nodes.len();
         let (rhs, sum) = (vec![0.0; cx.plan.dofs.unknowns()], vec![0.0; cx.nodal_unknowns()]);

@@ -242,7 +242,7 @@ impl Assembly {
                 };
                 let fill = |(k, K): (usize, &mut [f64])| {
                     let from = first + LANES * k;
-                    // Around supports few matrices are wanted.
+                    // The matrix around supports needs few elements.
                     let wanted = &destinations[from..(from + LANES).min(last)];
                     if wanted.iter().all(Destination::is_empty) {
                         return;

@@ -581,7 +581,7 @@ impl System {
     }
 
     /// The groups that give results, in the order of the parts: the elements of reduced parts in place of their superelements.
-    pub fn shown_groups(&self) -> impl Iterator<Item = &Group> {
+    pub fn shown_groups(&self) -> impl Iterator<Item = &Group> + Clone {
         let mut acting = self.groups.iter().filter(|group| !group.reduces).peekable();
         let mut resting = self.resting.iter().peekable();
         std::iter::from_fn(move || match (acting.peek(), resting.peek()) {

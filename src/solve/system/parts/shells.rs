@@ -145,50 +145,48 @@ fn block(part: &Shell, piece: Range<usize>, &Setting { model, x, .. }: &Setting)
 
 /// Writes the stress resultants of all elements of all shells into `out`, in deck order.
 pub fn shell_states<'g>(
-    groups: impl Iterator<Item = &'g Group>,
+    groups: impl Iterator<Item = &'g Group> + Clone + Send + Sync,
     model: &'g Model,
     now: &Configuration,
     threads: bool,
     out: &mut Vec<ShellState>,
 ) {
-    let of_shells: Vec<_> = groups.filter_map(|group| Some((group, Shell::of(&model.parts[group.part])?))).collect();
-    out.resize(elements(&of_shells), ShellState::default());
-    write_states(&of_shells, model, now, threads, out);
+    let of_shells = groups.filter_map(|group| Some((group, Shell::of(&model.parts[group.part])?)));
+    let all = 0..of_shells.clone().count();
+    out.resize(elements(&of_shells, &all), ShellState::default());
+    write_states(&of_shells, all, (model, now), threads, out);
 }
 
-/// The number of elements of groups.
-fn elements(groups: &[(&Group, &Shell)]) -> usize {
-    groups.iter().map(|(group, _)| group.block.len()).sum()
+/// The number of elements of these groups of shells.
+fn elements<'g>(of_shells: &(impl Iterator<Item = (&'g Group, &'g Shell)> + Clone), range: &Range<usize>) -> usize {
+    of_shells.clone().skip(range.start).take(range.len()).map(|(group, _)| group.block.len()).sum()
 }
 
-/// Writes the stress resultants of groups, in halves.
-fn write_states(
-    groups: &[(&Group, &Shell)],
-    model: &Model,
-    now: &Configuration,
+/// Writes the stress resultants of these groups of shells, in halves.
+fn write_states<'g>(
+    of_shells: &(impl Iterator<Item = (&'g Group, &'g Shell)> + Clone + Sync),
+    range: Range<usize>,
+    (model, now): (&Model, &Configuration),
     threads: bool,
     out: &mut [ShellState],
 ) {
-    match groups {
-        [] => {}
-        [(group, shell)] => {
-            let now = group.configuration(now);
-            group.block.resultants(&shell.axis, &|node| model.nodes[node].x, &now, &mut |e, mut at| {
-                let element = group.first + e;
-                if at.layers().is_empty() {
-                    at.set_elastic_layers(shell.thickness(element));
-                }
-                out[e] = ShellState { part: group.part, element: shell.number(element), at };
-            });
-        }
-        _ => {
-            let (left, right) = groups.split_at(groups.len() / 2);
-            let (first, second) = out.split_at_mut(elements(left));
-            both(
-                threads,
-                || write_states(left, model, now, threads, first),
-                || write_states(right, model, now, threads, second),
-            );
-        }
+    if range.len() > 1 {
+        let middle = range.start + range.len() / 2;
+        let (left, right) = (range.start..middle, middle..range.end);
+        let (first, second) = out.split_at_mut(elements(of_shells, &left));
+        return both(
+            threads,
+            || write_states(of_shells, left, (model, now), threads, first),
+            || write_states(of_shells, right, (model, now), threads, second),
+        );
     }
+    let Some((group, shell)) = of_shells.clone().nth(range.start).filter(|_| !range.is_empty()) else { return };
+    let now = group.configuration(now);
+    group.block.resultants(&shell.axis, &|node| model.nodes[node].x, &now, &mut |e, mut at| {
+        let element = group.first + e;
+        if at.layers().is_empty() {
+            at.set_elastic_layers(shell.thickness(element));
+        }
+        out[e] = ShellState { part: group.part, element: shell.number(element), at };
+    });
 }
