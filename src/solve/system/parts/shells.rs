@@ -174,11 +174,12 @@ fn write_states<'g>(
         let middle = range.start + range.len() / 2;
         let (left, right) = (range.start..middle, middle..range.end);
         let (first, second) = out.split_at_mut(elements(of_shells, &left));
-        return both(
+        both(
             threads,
             || write_states(of_shells, left, (model, now), threads, first),
             || write_states(of_shells, right, (model, now), threads, second),
         );
+        return;
     }
     let Some((group, shell)) = of_shells.clone().nth(range.start).filter(|_| !range.is_empty()) else { return };
     let now = group.configuration(now);
