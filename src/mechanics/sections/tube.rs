@@ -163,6 +163,43 @@ mod tests {
         close(round.Iz, PI / 4.0 * outer.powi(4), 1e-15);
     }
 
+    /// Cover and core of a round have the areas and moments of a ring and a circle; no tube and no round within its cover has a core.
+    #[test]
+    fn cover_and_core_of_a_round() {
+        let (R, r): (f64, f64) = (0.25, 0.21);
+        let round = Tube { radius: R, thickness: R };
+        let [cover, core] = round.cover_and_core(R - r, [16, 6]).unwrap();
+        for (fibres, [outer, inner]) in [(cover, [R, r]), (core, [r, 0.0])] {
+            let sum = |of: &dyn Fn(&Fibre) -> f64| fibres.iter().map(|f| f.area * of(f)).sum::<f64>();
+            let I = PI / 4.0 * (outer.powi(4) - inner.powi(4));
+            // Sums of a hundred fibres round to less.
+            close(sum(&|_| 1.0), PI * (outer * outer - inner * inner), 1e-13);
+            close(sum(&|f| f.y * f.y), I, 1e-13);
+            close(sum(&|f| f.z * f.z), I, 1e-13);
+            assert!(sum(&|f| f.y * f.z).abs().max(sum(&|f| f.y).abs()) < 1e-13 * R.powi(3));
+            assert!(fibres.iter().all(|f| f.y.hypot(f.z) < outer && f.y.hypot(f.z) > inner));
+        }
+        assert!(round.cover_and_core(R, [16, 6]).is_none());
+        assert!(Tube { radius: R, thickness: 0.1 }.cover_and_core(0.04, [16, 6]).is_none());
+    }
+
+    /// The depth below the nearer surface; a round has none inside.
+    #[test]
+    fn depth_of_rounds_and_tubes() {
+        let depth = |thickness: f64, at: [f64; 2]| Tube { radius: 0.25, thickness }.depth(at).unwrap();
+        for (thickness, at, exact) in [
+            (0.25, [0.0, 0.0], 0.25),
+            (0.25, [0.12, -0.16], 0.05),
+            (0.1, [0.12, -0.16], 0.05),
+            (0.1, [0.0, 0.17], 0.02),
+            (0.1, [0.0, 0.1], -0.05),
+            (0.1, [0.3, 0.0], -0.05),
+        ] {
+            // Differences of numbers of size 0.25.
+            assert!((depth(thickness, at) - exact).abs() < 1e-15, "{thickness} {at:?}");
+        }
+    }
+
     /// Corrections are of the order t/R = 1e-6 squared for the shear factor, and first order for the moments about R.
     #[test]
     fn thin_tube_has_shear_factor_one_half() {
