@@ -3,13 +3,14 @@
 use super::materials::Materials;
 use super::report::{Owner, Report};
 use base::diagnostic::{At, Span};
+use base::math::Mat3;
 use base::names::short;
 use deck::sections as words;
 use deck::words::Numbers;
 use deck::words::kinds::OneOf;
-use mechanics::elements::beam::FibreGroup;
+use mechanics::elements::beam::{FibreGroup, FibreSum};
 use mechanics::materials::uniaxial::UniaxialLaw;
-use mechanics::sections::{Fibre, SectionShape, Stiffness};
+use mechanics::sections::{Fibre, SectionShape, SectionStresses, Stiffness};
 use std::f64::consts::PI;
 
 /// Largest number of bars of a section.
@@ -28,36 +29,29 @@ pub(super) fn is_composite(section: &words::Section) -> bool {
     section.core.is_some() || section.cover.is_some() || section.bars.is_some()
 }
 
-/// The stiffness of a section with that of its fibres in place of its own in tension and bending, and their mass.
-pub(super) fn with_fibres(section: &Stiffness, parts: &[SectionPart]) -> Stiffness {
-    let mut sums = [[0.0; 6]; 2];
-    for part in parts {
-        for fibre in &part.group.fibres {
-            let [y, z] = [fibre.y, fibre.z];
-            for (sum, weight) in sums.iter_mut().zip([part.group.law.modulus(), part.density]) {
-                let moments = [1.0, y, z, y * y, z * z, y * z];
-                sum.iter_mut().zip(moments).for_each(|(sum, moment)| *sum += weight * fibre.area * moment);
-            }
-        }
+/// A section with stiffness and normal stresses of its fibres in place of its own in tension and bending, and their mass.
+pub(super) fn with_fibres(
+    (section, stresses): (Stiffness, Option<SectionStresses>),
+    parts: &[SectionPart],
+) -> (Stiffness, Option<SectionStresses>) {
+    let all = || parts.iter().flat_map(|part| part.group.fibres.iter().map(move |fibre| (part, fibre)));
+    let [mut stiffness, mut mass] = [FibreSum::default(), FibreSum::default()];
+    for (part, fibre) in all() {
+        stiffness.add(fibre, &[[part.group.law.modulus()]]);
+        mass.add(fibre, &[[part.density]]);
     }
-    // Moments that cancel leave rounding.
-    for sum in &mut sums {
-        let [area, y, z, yy, zz, yz] = sum;
-        let small = 1e-12 * (*yy + *zz);
-        [y, z].into_iter().filter(|s| s.powi(2) < 1e-12 * small * *area).for_each(|s| *s = 0.0);
-        *yz = if yz.abs() < small { 0.0 } else { *yz };
-    }
-    let [EA, ESy, ESz, EIz, EIy, EIyz] = sums[0];
-    let mut out = section.clone();
-    (out.N[(0, 0)], out.NM[(0, 1)], out.NM[(0, 2)]) = (EA, ESz, -ESy);
-    (out.M[(1, 1)], out.M[(2, 2)], out.M[(1, 2)], out.M[(2, 1)]) = (EIy, EIz, -EIyz, -EIyz);
-    let [mass, my, mz, yy, zz, yz] = sums[1];
-    let center = if mass > 0.0 { [my / mass, mz / mass] } else { [0.0; 2] };
-    let [Iy, Iz, Iyz] =
-        [zz - mass * center[1].powi(2), yy - mass * center[0].powi(2), yz - mass * center[0] * center[1]];
-    (out.mass_per_length, out.mass_center) = (mass, center);
-    out.inertia_per_length = base::math::Mat3::new(Iy + Iz, 0.0, 0.0, 0.0, Iy, -Iyz, 0.0, -Iyz, Iz);
-    out
+    let (C, M) = (stiffness.axial(), mass.axial());
+    let mut out = section;
+    (out.N[(0, 0)], out.NM[(0, 1)], out.NM[(0, 2)]) = (C[(0, 0)], C[(0, 1)], C[(0, 2)]);
+    (out.M[(1, 1)], out.M[(2, 2)], out.M[(1, 2)], out.M[(2, 1)]) = (C[(1, 1)], C[(2, 2)], C[(1, 2)], C[(2, 1)]);
+    let mass = M[(0, 0)];
+    let [y, z] = if mass > 0.0 { [-M[(0, 2)] / mass, M[(0, 1)] / mass] } else { [0.0; 2] };
+    let [Iy, Iz, Iyz] = [M[(1, 1)] - mass * z * z, M[(2, 2)] - mass * y * y, -M[(1, 2)] - mass * y * z];
+    (out.mass_per_length, out.mass_center) = (mass, [y, z]);
+    out.inertia_per_length = Mat3::new(Iy + Iz, 0.0, 0.0, 0.0, Iy, -Iyz, 0.0, -Iyz, Iz);
+    let stressed = all().filter(|(_, fibre)| fibre.area > 0.0);
+    let fibres = stressed.map(|(part, fibre)| [fibre.y, fibre.z, part.group.law.modulus()]).collect();
+    (out, stresses.and_then(|stresses| stresses.of_fibres(&C, fibres)))
 }
 
 /// Replaces the fibres of a section of one material by those of cover, core and bars. `counts` are the numbers of fibres.
@@ -89,9 +83,10 @@ pub(super) fn reinforce<'d>(
         let message = format!("{} has a `cover`, but no `core`", owner.what);
         return report.error_with(&cover.span, message, "name the material of the core");
     }
-    let mut sound = true;
+    let (mut sound, mut laid) = (true, Vec::new());
     for bars in section.bars.iter().flat_map(|bars| &bars.value) {
-        let read = self::bars(materials, (&owner, bars), shape, (&mut parts, depth_of_core), needs_mass, report);
+        let read =
+            self::bars(materials, (&owner, bars), shape, (&mut parts, &mut laid, depth_of_core), needs_mass, report);
         sound &= read.is_some();
     }
     sound.then_some(parts)
@@ -128,7 +123,7 @@ fn bars<'d>(
     materials: &Materials<'d>,
     (owner, bars): (&Owner<'d>, &'d At<deck::words::Table<words::SectionBars>>),
     shape: &dyn SectionShape,
-    (parts, depth_of_core): (&mut Vec<SectionPart>, f64),
+    (parts, laid, depth_of_core): (&mut Vec<SectionPart>, &mut Vec<([f64; 2], f64)>, f64),
     needs_mass: bool,
     report: &mut Report<'d>,
 ) -> Option<()> {
@@ -154,15 +149,31 @@ fn bars<'d>(
             let hint = format!("its centre is {} deep, its radius is {}", short(depth), short(radius));
             return report.error_with(&bars.span, message, hint);
         }
+        let touches = |([v, w], other): &&([f64; 2], f64)| (y - v).hypot(z - w) < (radius + other) * (1.0 - 1e-9);
+        if let Some(([v, w], _)) = laid.iter().find(touches) {
+            let [y, z, v, w] = [y, z, *v, *w].map(short);
+            let message = format!("the bars at [{y}, {z}] and [{v}, {w}] of {} overlap", owner.what);
+            return report.error_with(
+                &bars.span,
+                message,
+                "a bar counts once; leave the corners out of one of two rows",
+            );
+        }
+        laid.push((at, radius));
         // Hoops enclose bars on the edge of the core.
         let concrete = usize::from(depth >= depth_of_core * (1.0 - 1e-9));
         let fibre = |area: f64| Fibre { area, y, z, shear: [[0.0; 3]; 2] };
         parts[concrete].group.fibres.push(fibre(-area));
         part.group.fibres.push(fibre(area));
     }
-    parts.push(part);
+    // Bars of one material are one part.
+    match parts.iter_mut().find(|other| other.group.law == part.group.law && other.density == part.density) {
+        Some(other) => other.group.fibres.append(&mut part.group.fibres),
+        None => parts.push(part),
+    }
     Some(())
 }
+
 /// The area of a bar.
 fn area<'d>(owner: &Owner<'d>, bars: &'d words::SectionBars, report: &mut Report<'d>) -> Option<f64> {
     match (&bars.diameter, &bars.area) {

@@ -127,16 +127,9 @@ impl<'a, 'd> Sections<'a, 'd> {
             return *known;
         }
         let made = stiffness(&name.value, section, numbers, needs_mass, report);
-        let made = made.and_then(|(stiffness, stresses)| {
-            if !is_composite(section) {
-                return Some((stiffness, stresses));
-            }
-            let made_of = made_of.as_ref()?;
-            let (_, of) = self.materials.find(made_of, report)?;
-            let law = self.materials.law_of_fibres(made_of)?;
-            let law = law.unwrap_or(UniaxialLaw::Elastic(of.youngs_modulus.as_ref()?.value));
-            let parts = self.fibres(name, (made_of, law), needs_mass, report)?;
-            Some((with_fibres(&stiffness, &parts), stresses))
+        let made = made.and_then(|made| match made_of {
+            Some(made_of) if is_composite(section) => self.with_bars(made, (name, made_of), needs_mass, report),
+            _ => Some(made),
         });
         let index = made.map(|(stiffness, stresses)| {
             self.stresses.push(stresses);
@@ -145,6 +138,26 @@ impl<'a, 'd> Sections<'a, 'd> {
         });
         self.known.insert(key, index);
         index
+    }
+
+    /// The material of the core of a section.
+    pub fn core(&self, name: &At<String>) -> Option<&'d At<String>> {
+        self.table.0[self.table.position(name)?].1.core.as_ref()
+    }
+
+    /// A reinforced section, from that of its shape.
+    fn with_bars(
+        &self,
+        plain: (Stiffness, Option<SectionStresses>),
+        (name, made_of): (&'d At<String>, &'d At<String>),
+        needs_mass: bool,
+        report: &mut Report<'d>,
+    ) -> Option<(Stiffness, Option<SectionStresses>)> {
+        let (_, material) = self.materials.find(made_of, report)?;
+        let law = self.materials.law_of_fibres(made_of)?;
+        let law = law.unwrap_or(UniaxialLaw::Elastic(material.youngs_modulus.as_ref()?.value));
+        let parts = self.fibres(name, (made_of, law), needs_mass, report)?;
+        Some(with_fibres(plain, &parts))
     }
 
     /// Index of the section of a file.

@@ -4,6 +4,7 @@
 //! middle lines in walls. Warping that is held, fillets and the places of loads are left out, as in the stiffness of the beam.
 
 use super::section::Section;
+use base::math::{Mat3, Vec3};
 use nalgebra::{Matrix2, Vector2};
 use std::f64::consts::{PI, TAU};
 
@@ -21,6 +22,29 @@ pub struct SectionStresses {
     /// Centroid (y, z) from the axis of the beam.
     centroid: [f64; 2],
     outline: SectionOutline,
+    /// Where normal stress is that of several materials.
+    fibres: Option<ElasticFibres>,
+}
+
+/// Fibres of several materials.
+#[derive(Debug, Clone, PartialEq)]
+struct ElasticFibres {
+    /// Strains (Γ₁, κ₂, κ₃) from (N, M_y, M_z).
+    compliance: Mat3,
+    /// Coordinates y and z, and Young's modulus.
+    fibres: Vec<[f64; 3]>,
+}
+
+impl ElasticFibres {
+    /// Extremes of the normal stresses E (Γ₁ + z κ₂ − y κ₃).
+    fn extremes(&self, resultants: Vec3) -> BeamStresses {
+        let strain = self.compliance * resultants;
+        let mut found = BeamStresses::default();
+        for [y, z, E] in &self.fibres {
+            found.include(E * (strain.x + z * strain.y - y * strain.z), &[]);
+        }
+        found
+    }
 }
 
 /// The points of a section with possibly extreme stresses.
@@ -80,7 +104,14 @@ impl SectionStresses {
         // (M_y, M_z) = E [I_y −I_yz; −I_yz I_z] (κ₂, κ₃), and σ = E (z κ₂ − y κ₃).
         let det = Iy * Iz - Iyz * Iyz;
         let bending = Matrix2::new(-Iyz, -Iy, Iz, Iyz) / det;
-        SectionStresses { area, bending, shear_center, centroid: [0.0; 2], outline }
+        SectionStresses { area, bending, shear_center, centroid: [0.0; 2], outline, fibres: None }
+    }
+
+    /// Returns the section with normal stresses in these fibres: their y, z and Young's modulus. `stiffness` is that of all against (Γ₁, κ₂, κ₃);
+    /// `None` where it has no inverse.
+    pub fn of_fibres(self, stiffness: &Mat3, fibres: Vec<[f64; 3]>) -> Option<SectionStresses> {
+        let compliance = stiffness.try_inverse()?;
+        Some(SectionStresses { fibres: Some(ElasticFibres { compliance, fibres }), ..self })
     }
 
     /// Returns the section with its centroid at (y, z) from the axis of the beam.
@@ -128,7 +159,10 @@ impl SectionStresses {
                 }
             }
         }
-        found
+        let Some(fibres) = &self.fibres else { return found };
+        // Shear is that of the shape, apart from the fibres.
+        let [most, least, _, mises] = fibres.extremes(Vec3::new(N, My, Mz)).values;
+        BeamStresses { values: [most, least, found.values[2], mises] }
     }
 }
 

@@ -95,7 +95,8 @@ fn read_beam<'d>(
     }
     elements.iter_mut().for_each(|element| element.section = section);
     if let Some(yielding) = &yielding {
-        softening::check_lengths(owner, yielding, (&elements, order), cx)?;
+        let materials = [beam.material.as_ref(), beam.section.as_ref().and_then(|name| cx.sections.core(name))];
+        softening::check_lengths(owner, (yielding, materials), (&elements, order), cx)?;
     }
     if let Some(stations) = stations {
         stations.lay(&mut elements, beam, (order, shear), cx)?;

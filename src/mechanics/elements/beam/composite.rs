@@ -44,13 +44,13 @@ fn strain(fibre: &Fibre, [gamma, kappa]: [&Vec3; 2]) -> f64 {
 impl CompositeProfile {
     /// The fibres at a point that stands for this length of the beam. `section` gives the stiffness in shear and torsion.
     pub fn new(groups: &[FibreGroup], length: f64, section: &Stiffness) -> Self {
+        let mut own = FibreSum::default();
+        for group in groups {
+            group.fibres.iter().for_each(|fibre| own.add(fibre, &[[group.law.modulus()]]));
+        }
         let of_point =
             |group: &FibreGroup| FibreGroup { law: group.law.of_length(length), fibres: group.fibres.clone() };
         let groups: Vec<_> = groups.iter().map(of_point).collect();
-        let mut own = FibreSum::default();
-        for group in &groups {
-            group.fibres.iter().for_each(|fibre| own.add(fibre, &[[group.law.modulus()]]));
-        }
         let only =
             |K: &Mat3, keep: fn(usize, usize) -> bool| Mat3::from_fn(|i, j| if keep(i, j) { K[(i, j)] } else { 0.0 });
         let shear = BeamStiffness {
@@ -313,8 +313,7 @@ mod tests {
         close(whole.M[(0, 0)], section.M[(0, 0)]);
     }
 
-    /// The tangent of random states against central differences of the resultants. Where a fibre turns within the difference, or lies at one of its
-    /// corners, the difference is that of both sides: few of 76 fibres, whose share of the stiffness bounds the error.
+    /// The tangent of random states against differences of the resultants. Where a fibre bends within the difference, one side agrees.
     #[test]
     fn the_tangent_is_the_derivative_of_the_resultants() {
         let (groups, section) = groups();
@@ -323,7 +322,6 @@ mod tests {
         let mut random = SmallRng::seed_from_u64(8);
         let mut history = vec![0.0; section.history()];
         let scale = [2e-3, 1e-3, 1e-3, 2e-3, 8e-3, 8e-3];
-        let mut exact = 0;
         for _ in 0..200 {
             let mut any = || Vec6::from_fn(|i, _| scale[i] * random.random_range(-1.0..1.0));
             let (to, at) = (any(), any());
@@ -343,8 +341,7 @@ mod tests {
                     let (gamma, kappa) = parts(&e);
                     section.stress(0, &gamma, &kappa, &now)
                 };
-                let ((n, m), (n0, m0)) = (side(h), side(-h));
-                let [n, m] = [(n - n0) / (2.0 * h), (m - m0) / (2.0 * h)];
+                let (n0, m0) = side(0.0);
                 let (k, whole) = (j % 3, &section.elastic);
                 let [cn, cm, sizes] = match j {
                     0..3 => [C.N.column(k).into_owned(), C.NM.row(k).transpose(), Vec3::new(whole.N[(k, k)], 0.0, 0.0)],
@@ -352,11 +349,45 @@ mod tests {
                         [C.NM.column(k).into_owned(), C.M.column(k).into_owned(), Vec3::new(whole.M[(k, k)], 0.0, 0.0)]
                     }
                 };
-                let error = (n - cn).amax().max((m - cm).amax()) / sizes.x;
-                assert!(error < 0.2, "{j}: {n} {cn} {m} {cm}");
-                exact += usize::from(error < 1e-6);
+                let error = [h, -h].map(|h| {
+                    let (n, m) = side(h);
+                    ((n - n0) / h - cn).amax().max(((m - m0) / h - cm).amax()) / sizes.x
+                });
+                // The second derivative over h: 20 h over the yield strain in the knee of a bar.
+                assert!(error[0].min(error[1]) < 2e-5, "{j}: {error:?}");
             }
         }
-        assert!(exact > 1150, "{exact} of 1200");
+    }
+
+    /// The work of the resultants on a random path is the energy that unloading returns and the dissipation. The trapezoidal rule of 2000 pieces
+    /// errs by their square.
+    #[test]
+    fn work_is_energy_and_dissipation() {
+        let (groups, section) = groups();
+        let profile = Arc::new(CompositeProfile::new(&groups, 0.2, &section));
+        let section = CompositeSection::new(vec![profile], &Mat3::identity(), 0);
+        let mut random = SmallRng::seed_from_u64(11);
+        let mut history = vec![0.0; section.history()];
+        let scale = [2e-3, 1e-3, 1e-3, 2e-3, 8e-3, 8e-3];
+        let (mut at, mut old, mut work, mut spent) = (Vec6::zeros(), Vec6::zeros(), 0.0, 0.0);
+        for _ in 0..6 {
+            let to = Vec6::from_fn(|i, _| scale[i] * random.random_range(-1.0..1.0));
+            let step = (to - at) / 2000.0;
+            for _ in 0..2000 {
+                at += step;
+                let before = history.clone();
+                let now = Configuration { history: &before, ..Configuration::of(&[]) };
+                let (gamma, kappa) = (at.fixed_rows::<3>(0).into_owned(), at.fixed_rows::<3>(3).into_owned());
+                let (n, m, more) = section.advance(0, (&gamma, &kappa), &now, &mut history);
+                let new = Vec6::new(n.x, n.y, n.z, m.x, m.y, m.z);
+                work += 0.5 * (old + new).dot(&step);
+                (old, spent) = (new, spent + more.plastic);
+            }
+        }
+        let now = Configuration { history: &history, ..Configuration::of(&[]) };
+        let (gamma, kappa) = (at.fixed_rows::<3>(0).into_owned(), at.fixed_rows::<3>(3).into_owned());
+        let energy = section.energy(0, &gamma, &kappa, &now);
+        assert!((work - energy - spent).abs() < 1e-5 * work, "{work} for {energy} and {spent}");
+        assert!(spent > 0.3 * work, "{spent} of {work}");
     }
 }

@@ -6,7 +6,7 @@ use base::math::{Mat3, Mat6, Vec3};
 
 /// The sum of the stiffnesses of fibres, in section axes.
 #[derive(Default)]
-pub(super) struct FibreSum {
+pub struct FibreSum {
     /// Stiffness with respect to (Γ₁, κ₂, κ₃).
     axial: Mat3,
     /// Stiffness with respect to (Γ₂, Γ₃, κ₁).
@@ -31,8 +31,20 @@ impl FibreSum {
         }
     }
 
+    /// The sum with respect to (Γ₁, κ₂, κ₃), without the rounding of moments that cancel: it would couple tension with bending.
+    pub fn axial(&self) -> Mat3 {
+        let mut out = self.axial;
+        for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+            // Sums of some hundred fibres round to 1e-14 of the terms.
+            if out[(i, j)].abs() < 1e-12 * (out[(i, i)] * out[(j, j)]).sqrt() {
+                (out[(i, j)], out[(j, i)]) = (0.0, 0.0);
+            }
+        }
+        out
+    }
+
     /// The sum as the stiffness of a section.
-    pub fn section(&self) -> BeamStiffness {
+    pub(super) fn section(&self) -> BeamStiffness {
         const AXIAL: [usize; 3] = [0, 4, 5];
         const SHEAR: [usize; 3] = [1, 2, 3];
         let mut C = Mat6::zeros();

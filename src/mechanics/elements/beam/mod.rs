@@ -29,6 +29,7 @@ mod varied;
 
 pub use build::{BeamGeometry, BeamSetting, FibreModel, elastic_beams};
 pub use composite::FibreGroup;
+pub use fibre_sum::FibreSum;
 pub use section::BeamStiffness;
 pub use shape::{IntegrationRule, MOST_POINTS, cubic_deflection};
 

@@ -49,18 +49,19 @@ impl ConcreteModel {
         2.0 * self.strength / self.modulus
     }
 
-    /// The longest length over which its softening may spread: for longer ones the energy of softening is below the elastic energy. Infinite
-    /// where strains are given.
-    pub fn longest(&self) -> f64 {
+    /// The longest lengths over which crushing and cracking may spread: for longer ones the energy of softening is below the elastic energy.
+    /// Infinite where strains are given.
+    pub fn longest(&self) -> [f64; 2] {
         let ConcreteModel { modulus: E, strength: f, residual: r, tensile_strength: f_t, .. } = *self;
         let crushing = match self.crushing {
             Softening::Energy(energy) if f > r => energy * E / (0.5 * (f + r) * (f - r)),
             _ => f64::INFINITY,
         };
-        match self.cracking {
-            Softening::Energy(energy) if f_t > 0.0 => crushing.min(2.0 * energy * E / (f_t * f_t)),
-            _ => crushing,
-        }
+        let cracking = match self.cracking {
+            Softening::Energy(energy) if f_t > 0.0 => 2.0 * energy * E / (f_t * f_t),
+            _ => f64::INFINITY,
+        };
+        [crushing, cracking]
     }
 
     /// The law at a point that stands for this `length`, which is below [`ConcreteModel::longest`].
@@ -148,11 +149,6 @@ impl ConcreteState {
 }
 
 impl Concrete {
-    /// Young's modulus.
-    pub fn modulus(&self) -> f64 {
-        self.modulus
-    }
-
     /// Stress and slope in first compression at a strain of 0 or less.
     fn compression(&self, strain: f64) -> [f64; 2] {
         let x = -strain;

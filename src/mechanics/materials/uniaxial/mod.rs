@@ -57,16 +57,6 @@ impl UniaxialLaw {
 }
 
 impl PointLaw {
-    /// Young's modulus.
-    pub fn modulus(&self) -> f64 {
-        match self {
-            UniaxialLaw::Elastic(modulus) => *modulus,
-            UniaxialLaw::Plastic(law) => law.elastic().E,
-            UniaxialLaw::Concrete(law) => law.modulus(),
-            UniaxialLaw::MenegottoPinto(law) => law.modulus,
-        }
-    }
-
     /// The number of history variables of a point; all are zero at the start.
     pub fn variables(&self) -> usize {
         match self {
