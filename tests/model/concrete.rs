@@ -168,7 +168,7 @@ fn wrong_decks_are_told_what_to_change() {
                 "shape = \"rectangle\"\nwidth = 0.4\nheight = 0.5",
                 "shape = \"general\"\narea = 0.2\nmoments = [4e-3, 3e-3]\ntorsion_constant = 5e-3\nshear_areas = [0.16, 0.16]",
             ),
-            "section `column` gives stiffnesses, so it takes no `bars`, `core` and `cover`",
+            "section `column`: a general section has no fibres, because it gives an area without its place",
         ),
         (
             bar(r#"material = "rebar", diameter = 0.02, count = 3, from = [0.0, 0.0], to = [0.03, 0.0]"#),
