@@ -261,8 +261,9 @@ impl Substeps {
         Ok(())
     }
 
-    /// After the failure of the shortest step: begins again at full length, with shortened corrections, where nothing is stressed yet. A
-    /// flat membrane or net is so soft then that no step is short enough. Returns false in other cases, and if this retry was already made.
+    /// After the failure of the shortest step: begins again with the longest substep that ends inside the step, with shortened corrections,
+    /// where nothing is stressed yet. A flat membrane or net is so soft then that no step is short enough. Returns false in other cases, and
+    /// if this retry was already made.
     fn is_tried_with_care(&mut self, march: &mut March, failure: &Failure) -> bool {
         let load_steps = &mut march.ws.load_steps;
         let is_lost = matches!(
@@ -277,8 +278,13 @@ impl Substeps {
             return false;
         }
         (load_steps.careful, load_steps.doubtful) = (true, None);
-        (self.length, self.successes) = (WHOLE_STEP, 0);
+        (self.length, self.successes) = (longest(self.at), 0);
         self.of_shortest = Some(failure.clone());
         true
     }
+}
+
+/// The longest substep from a place in the step: it ends where halves of the step end.
+fn longest(at: u64) -> u64 {
+    1 << (at | WHOLE_STEP).trailing_zeros()
 }
