@@ -136,7 +136,10 @@ fn wrong_decks_are_told_what_to_change() {
             concrete("crushing_strain = 0.006\nunloading_ratio = 0.01"),
             "unloading from the crushing strain would end in tension; take 0.03333 or more",
         ),
-        (concrete("crushing_energy = 3e3"), "of material `plain` is 3000, but an integration point stands for a length of 0.333"),
+        (
+            concrete("crushing_energy = 3e3"),
+            "of material `plain` is 3000, but an integration point stands for a length of 0.333",
+        ),
         (with("yield_stress = 500e6", ""), "material `rebar` needs `yield_stress`"),
         (
             with("yield_stress = 500e6", "yield_stress = 500e6\nisotropic = [0.1, 1.0]"),

@@ -76,6 +76,26 @@ fn shear_stiffness(fibres: &[Fibre]) -> Mat3 {
     modes.map(|(area, s)| area * s * s.transpose()).sum()
 }
 
+/// The fibres by their height: in the plane of x and z (`along_z`) or of x and y.
+fn layers(fibres: &[Fibre], along_z: bool) -> Vec<Vec<Fibre>> {
+    let height = |f: &Fibre| if along_z { f.z } else { f.y };
+    let mut sorted = fibres.to_vec();
+    sorted.sort_by(|a, b| height(a).total_cmp(&height(b)));
+    let size = fibres.iter().map(|f| height(f).abs()).fold(0.0, f64::max);
+    sorted.chunk_by(|a, b| height(b) - height(a) <= 1e-12 * size).map(<[Fibre]>::to_vec).collect()
+}
+
+/// True where no stress over the height, elastic or not, has a moment out of the plane of x and z (`along_z`) or of x and y.
+pub fn balance(fibres: &[Fibre], along_z: bool) -> bool {
+    let out = |f: &Fibre| if along_z { f.y } else { f.z };
+    let reach = fibres.iter().map(|f| out(f).abs()).fold(0.0, f64::max);
+    layers(fibres, along_z).iter().all(|layer| {
+        let moment: f64 = layer.iter().map(|f| f.area * out(f)).sum();
+        // Sums of some hundred products round to less.
+        moment.abs() <= 1e-12 * reach * layer.iter().map(|f| f.area.abs()).sum::<f64>()
+    })
+}
+
 /// The fibres for motion in the plane of x and z (`along_z`) or of x and y: those at one height in the plane become one.
 ///
 /// Areas add, and so does the energy of in-plane shear (its mode is the root of the mean square). Coordinates and modes out of the plane
@@ -83,11 +103,8 @@ fn shear_stiffness(fibres: &[Fibre]) -> Mat3 {
 pub fn flattened(fibres: &[Fibre], along_z: bool) -> Vec<Fibre> {
     let height = |f: &Fibre| if along_z { f.z } else { f.y };
     let mode = usize::from(along_z);
-    let mut sorted: Vec<&Fibre> = fibres.iter().collect();
-    sorted.sort_by(|a, b| height(a).total_cmp(&height(b)));
-    let size = fibres.iter().map(|f| height(f).abs()).fold(0.0, f64::max);
-    let layers = sorted.chunk_by(|a, b| height(b) - height(a) <= 1e-12 * size);
-    layers
+    layers(fibres, along_z)
+        .iter()
         .map(|layer| {
             let mean = |of: &dyn Fn(&Fibre) -> f64| {
                 let area: f64 = layer.iter().map(|f| f.area).sum();

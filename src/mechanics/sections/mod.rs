@@ -23,7 +23,7 @@ pub mod stresses;
 pub mod tube;
 mod wall;
 
-pub use fibres::{Fibre, flattened};
+pub use fibres::{Fibre, balance, flattened};
 pub use matrices::from_matrices;
 pub use section::{Section, Stiffness};
 pub use section_shape::{CrossSection, SectionKind, SectionShape};

@@ -181,7 +181,8 @@ impl Concrete {
         let stress = self.compression(crushed)[0];
         let slope =
             if crushed < 0.0 { (stress - self.modulus * self.focus) / (crushed - self.focus) } else { self.modulus };
-        let plastic = if stress == 0.0 { crushed } else { crushed - stress / slope };
+        // Without residual strength and slope, crushed concrete unloads towards the focus of all lines.
+        let plastic = if slope > 0.0 { crushed - stress / slope } else { self.focus };
         Unloading { slope, from: [crushed, stress], plastic }
     }
 

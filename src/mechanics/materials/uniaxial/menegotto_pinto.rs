@@ -49,9 +49,9 @@ pub struct SteelState {
     accumulated: f64,
 }
 
-/// A way back of so many yield strains belongs to the curve: rounding and the iteration move strains to and fro where a load stays. The error of
-/// the stress is this part of the yield stress.
-const SAME: f64 = 1e-6;
+/// A way back of so many yield strains belongs to the curve: rounding and the iteration, with tolerances up to 1e-5, move strains to and fro where
+/// a load stays. The error of the stress is at most this part of the yield stress.
+pub(super) const SAME: f64 = 1e-4;
 
 /// Where a reversal lies nearer to the line of hardening, in yield strains, the line is the answer: differences of strains round to 1e-12 of them.
 const LEAST_WAY: f64 = 1e-9;

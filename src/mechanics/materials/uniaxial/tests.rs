@@ -1,7 +1,7 @@
 //! Laws of normal stress beside OpenSees, beside integrations in small steps, and with their slopes and energies.
 
 use super::concrete::ConcreteState;
-use super::menegotto_pinto::SteelState;
+use super::menegotto_pinto::{SAME, SteelState};
 use super::*;
 use rand::{RngExt, SeedableRng, rngs::SmallRng};
 
@@ -204,6 +204,24 @@ fn rounding_is_no_reversal() {
             assert!((a - b).abs() < 1e-9 * size, "{law:?} at {strain}: {a} {b}");
         }
     }
+}
+
+/// Steel that moves to and fro within what the iteration leaves goes on as if it had not moved.
+#[test]
+fn noise_of_the_iteration_is_no_reversal() {
+    let law = PointLaw::MenegottoPinto(STEEL);
+    let noise = 0.9 * SAME * STEEL.yield_stress / STEEL.modulus;
+    let stress = |noise: f64| {
+        let mut history = vec![0.0; law.variables()];
+        for strain in [0.01, -0.01, -0.002, -0.002 - noise, -0.002 + noise, -0.002] {
+            let old = history.clone();
+            law.advance(strain, (0.0, &old), 1.0, &mut history);
+        }
+        law.respond(0.0, (0.0, &history))[0]
+    };
+    // The noise ends further along the curve, which has at most the slope of Young's modulus.
+    assert!((stress(noise) - stress(0.0)).abs() < SAME * STEEL.yield_stress);
+    assert!((stress(3.0 * noise) - stress(0.0)).abs() > 0.1 * STEEL.yield_stress);
 }
 
 /// Slopes against central differences at random states; where the path bends within the difference, one side agrees.

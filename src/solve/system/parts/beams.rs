@@ -41,8 +41,7 @@ impl Assembled for Beam {
     }
 
     fn stays_in(&self, plane: &MotionPlane, stiffnesses: &[Stiffness]) -> bool {
-        let fibres =
-            |model: &FibreModel| in_plane(self, Some(plane.normal)).is_none_or(|along_z| model.stays_in(along_z));
+        let fibres = |model: &FibreModel| model.stays_in(in_plane(self, Some(plane.normal)));
         if !self.yielding.as_ref().is_none_or(fibres) {
             return false;
         }
