@@ -857,6 +857,8 @@ pub mod penalties {
     /// Factor of a joint, as a part of the largest, below which its forces are rounding. Also the limit for forces relative to the reaction
     /// to a gap of the size of the model, or to a rotation of one radian.
     pub const NOTHING: f64 = 1e-12;
+    /// Part of the largest stiffness below which another one stems from rounding alone.
+    pub const UNFELT: f64 = NOTHING * NOTHING;
     /// A moment of a joint that is this part of its force along the scene gives no measure of its stiffness, whatever the iteration has made of it.
     pub const FAINT: f64 = 1e-6;
     /// Least ratio of the penalty factor of a joint to the stiffness of its forces. Their sum is then positive, although arms and

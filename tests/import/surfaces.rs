@@ -1,8 +1,9 @@
 //! Surfaces of edges and faces: couplings, and loads along edges.
 
 use super::rows::{SHELL, edited, has, refuses};
-use super::values::{moves, near};
+use super::values::{model_of, moves, near};
 use super::{deck, imported, reasons, refusals, tables};
+use crate::support;
 use import::KeywordVerdict;
 
 /// The edge of the last two elements as a surface goes with the reference node as a set of its nodes does: M L²/(2 E I).
@@ -239,6 +240,34 @@ fn laws_of_contact() {
     let linear = [("OVERCLOSURE=HARD\n", "OVERCLOSURE=LINEAR\n1e9,\n")];
     let said = reasons(&imported(&edited(&plain, &linear)), KeywordVerdict::Changed);
     assert!(said[0].contains("rdsolve chooses the stiffness"), "{said:?}");
+}
+
+/// The edge of the punch presses nodes at a = 0.95 down by u = 2 mm; the strip at x = 0.5 sinks by u x² (3 a - x)/(2 a³). The edge lies on
+/// these nodes or beside them. Shear and large rotations change it by less than 1e-3. The support names the body, as the limits advise.
+#[test]
+fn a_rigid_punch() {
+    let heavy = ("*ELASTIC\n2e11", "*DENSITY\n7800.\n*ELASTIC\n2e11");
+    let beside = [("1, 0.95, -0.05", "1, 0.94, -0.05"), ("4, 0.95, 0.15", "4, 0.94, 0.15")];
+    for edits in [vec![], vec![heavy], beside.to_vec(), [&beside[..], &[heavy]].concat()] {
+        let mut made = imported(&edited(&punch(""), &edits));
+        made.deck = edited(&made.deck, &[("at = \"P.RP\"", "at = \"P.stamp\"")]);
+        let model = model_of(&made);
+        let at = support::node(&model, "mesh.11");
+        let done = support::run_to_the_end(&model, &mut |frame| vec![frame.state.nodes[at].x.z]);
+        near(done.rows.last().unwrap()[0], -6.85231e-4, 2e-3);
+    }
+}
+
+/// The punch moves without a force until it touches: nothing resists it, and nothing is left to balance.
+#[test]
+fn a_rigid_punch_that_does_not_touch() {
+    for edge in ["0.94", "0.95"] {
+        let text =
+            punch("").replace("0.95, -0.05", &format!("{edge}, -0.05")).replace("0.95, 0.15", &format!("{edge}, 0.15"));
+        let text = edited(&text, &[("3, 3, -0.003", "3, 3, -0.0005")]);
+        // The regularization of joints leaves its part of the motion, 1e-11.
+        near(moves(&text, "mesh.109").0[2], -0.0005, 1e-9);
+    }
 }
 
 /// A clamped strip pressed down by 3 mm by a thick plate: nodes of the strip at 0.25, as CalculiX 2.20 has them with S4 and with S8R.

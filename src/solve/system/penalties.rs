@@ -3,7 +3,7 @@
 use super::dofs::DofMap;
 use super::equations::System;
 use super::multipliers::Multipliers;
-use crate::tolerances::penalties::{FAINT, FIRM, MODERATE, NOTHING};
+use crate::tolerances::penalties::{FAINT, FIRM, MODERATE, NOTHING, UNFELT};
 use base::math::{Mat6, Vec3, Vec6, angular, linear};
 use linear::Solver;
 use mechanics::constraints::joint::{ConstraintEquation, Joint, MOST_ENDS};
@@ -72,6 +72,16 @@ impl Diagonals {
             let arm = dependent.arm(&nodes[dependent.master]);
             self.rounding[dependent.master] += NOTHING * f.norm() * arm.norm();
         }
+    }
+
+    /// Counts as rounding what vanishes beside the stiffest entry of the matrix. Forces that are rounding themselves turn rigid parts with a
+    /// stiffness of their size; factors as small would make the next forces smaller still, and no iteration would end.
+    fn leave_out_unfelt(&mut self, values: &[f64]) {
+        if self.rounding.is_empty() {
+            return;
+        }
+        let least = UNFELT * values.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
+        self.rounding.iter_mut().for_each(|rounding| *rounding = rounding.max(least));
     }
 
     /// Measures the stiffness that the forces of joints have.
@@ -236,6 +246,7 @@ pub(super) fn set(
 ) {
     diagonals.take(system, nodes, multipliers, at_rest);
     if at_rest {
+        diagonals.leave_out_unfelt(values);
         diagonals.measure(system, nodes, projections);
     }
     let firm = |j: usize| if at_rest { diagonals.firm(j, values) } else { None };
@@ -292,7 +303,7 @@ fn beside(s: f64, firm: Option<f64>, heaviest: f64, firmest: f64) -> f64 {
     };
     match heaviest > 0.0 {
         _ if s * MODERATE >= heaviest && s > 0.0 => s,
-        _ if s > 0.0 => heaviest * (s / heaviest).sqrt().sqrt(),
+        _ if s > UNFELT * heaviest => heaviest * (s / heaviest).sqrt().sqrt(),
         true => heaviest,
         false if firmest > 0.0 => firmest,
         false => 1.0,
