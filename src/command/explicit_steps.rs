@@ -2,7 +2,7 @@
 
 use base::names::to_digits;
 use mechanics::integrators::Stepping;
-use model::{Model, PartKind};
+use model::Model;
 use solve::system::{System, added_at, governing};
 
 /// The multiples of the critical time step whose mass is told.
@@ -55,7 +55,7 @@ pub fn offers(model: &Model, system: &System) -> Vec<(&'static str, String)> {
 /// Central differences beside a scheme that nobody asked for, where parts that deform strike something: each blow takes short steps of
 /// any scheme.
 pub fn alternative(model: &Model, system: &System) -> Option<String> {
-    let touches = model.parts.iter().any(|part| matches!(part.kind(), PartKind::Contact));
+    let touches = model.parts.iter().any(|part| part.kind().is_unilateral());
     let strikes = model.analysis.is_dynamic() && model.solution.scheme_is_chosen && touches;
     let found = strikes.then(|| governing(model, &system.groups, true)).flatten()?;
     let steps = model.analysis.duration() / (model.stable_fraction() * found.step);

@@ -1,7 +1,7 @@
 //! `*CONTACT PAIR`: the nodes of one surface touch the faces of another.
 
 use crate::build::Build;
-use crate::contact_cards::{ContactCard, InteractionCard};
+use crate::contact_content::{ContactCard, InteractionCard};
 use crate::deck_text::{DeckTable, inline, number, quoted};
 use crate::dialect::Dialect;
 use crate::file_content::{StepCard, StepProcedure};

@@ -2,14 +2,12 @@
 
 use crate::build::Build;
 use crate::deck_text::DeckTable;
-use crate::file_content::SpreadLine;
+use crate::file_content::{SpreadLine, StepCard};
 use crate::loads::in_time;
-use crate::spread_loads::keeps_direction;
-use crate::surfaces::{edge, lines};
+use crate::surfaces::{along_edge, edge, lines};
 use crate::timeline::TimeLaw;
 use base::math::Vec3;
 use base::math::curved_faces::corners;
-use base::math::quadrature::gauss;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Forces that differ by less, over the largest one, are the same but for rounding.
@@ -124,17 +122,12 @@ fn at_nodes(build: &Build, cell: usize, of_edge: &[usize], along: &Along) -> Opt
     Some(of_edge.iter().map(|k| nodes[*k]).zip(forces).collect())
 }
 
-/// Gauss's points of an edge by its nodes, both ends first: weights of the nodes there, and the slope of the place.
-pub fn along_edge(x: &[Vec3]) -> Vec<(Vec<f64>, Vec3)> {
-    let (places, weights) = gauss(3);
-    let point = |(s, weight): (&f64, &f64)| {
-        // Shape functions over s from −1 to 1, and their slopes.
-        let (n, d) = match x.len() {
-            2 => (vec![0.5 * (1.0 - s), 0.5 * (1.0 + s)], vec![-0.5, 0.5]),
-            _ => (vec![0.5 * s * (s - 1.0), 0.5 * s * (s + 1.0), 1.0 - s * s], vec![s - 0.5, s + 0.5, -2.0 * s]),
-        };
-        let slope: Vec3 = x.iter().zip(&d).map(|(x, d)| x * *d).sum();
-        (n.into_iter().map(|n| n * weight).collect(), slope)
-    };
-    places.iter().zip(weights).map(point).collect()
+/// Tells that a load keeps its direction where the other program turns it.
+pub fn keeps_direction(build: &mut Build, line: &SpreadLine) {
+    let is_fixed = line.is_fixed && ["TRVEC", "EDLD"].iter().any(|kind| line.kind.starts_with(kind));
+    let is_before = |step: &&StepCard| step.spread.iter().all(|other| other.line != line.line);
+    if !is_fixed && build.im.steps.list.iter().skip_while(is_before).any(|step| step.is_nonlinear) {
+        let how = "this load keeps the direction of the undeformed shape, and errs by the angle of rotation; rotations below 0.01 rad change it by 1 %";
+        build.im.change(line.line, how);
+    }
 }

@@ -1,6 +1,6 @@
 //! The content of a file, before sets and instances are resolved.
 
-use crate::contact_cards::ContactCards;
+use crate::contact_content::ContactCards;
 use crate::scopes::NamedTarget;
 use crate::tied_nodes::NodalAxes;
 use base::math::Vec3;

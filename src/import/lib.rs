@@ -16,6 +16,7 @@ mod build;
 mod connector_cards;
 mod constraint_cards;
 mod contact_cards;
+mod contact_content;
 mod contacts;
 mod deck_text;
 mod dialect;

@@ -3,9 +3,9 @@
 use crate::build::Build;
 use crate::deck_text::{DeckTable, inline, number, vector};
 use crate::dialect::Dialect;
-use crate::edge_loads;
+use crate::edge_loads::{self, keeps_direction};
 use crate::element_types::ElementUse;
-use crate::file_content::{SpreadLine, StepCard};
+use crate::file_content::SpreadLine;
 use crate::loads::{in_time, lines_of, refuse_two_laws};
 use crate::part_piece::PartPiece;
 use crate::scopes::NamedTarget;
@@ -229,16 +229,6 @@ fn traction(build: &mut Build, line: &SpreadLine) -> Option<Vec3> {
     }
     keeps_direction(build, line);
     direction
-}
-
-/// Tells that a load keeps its direction where the other program turns it.
-pub fn keeps_direction(build: &mut Build, line: &SpreadLine) {
-    let is_fixed = line.is_fixed && ["TRVEC", "EDLD"].iter().any(|kind| line.kind.starts_with(kind));
-    let is_here = |step: &&StepCard| step.spread.iter().any(|other| other.line == line.line);
-    if !is_fixed && build.im.steps.list.iter().find(is_here).is_some_and(|step| step.is_nonlinear) {
-        let how = "this load keeps the direction of the undeformed shape, and errs by the angle of rotation; rotations below 0.01 rad change it by 1 %";
-        build.im.change(line.line, how);
-    }
 }
 
 /// Gravity acts on everything.

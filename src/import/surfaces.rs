@@ -1,7 +1,6 @@
 //! Surfaces: sets of nodes, faces of elements and edges of shells under one name.
 
 use crate::build::Build;
-use crate::edge_loads::along_edge;
 use crate::scopes::{Members, NamedTarget};
 use base::math::Vec3;
 use base::math::curved_faces::corners;
@@ -119,4 +118,19 @@ pub fn edge(side: &str, nodes: usize) -> Option<Vec<usize>> {
     let n = corners(nodes);
     let middle = (nodes > n).then_some(n + first);
     (first < n).then(|| [first, (first + 1) % n].into_iter().chain(middle).collect())
+}
+
+/// Gauss's points of an edge by its nodes, both ends first: weights of the nodes there, and the slope of the place.
+pub fn along_edge(x: &[Vec3]) -> Vec<(Vec<f64>, Vec3)> {
+    let (places, weights) = gauss(3);
+    let point = |(s, weight): (&f64, &f64)| {
+        // Shape functions over s from −1 to 1, and their slopes.
+        let (n, d) = match x.len() {
+            2 => (vec![0.5 * (1.0 - s), 0.5 * (1.0 + s)], vec![-0.5, 0.5]),
+            _ => (vec![0.5 * s * (s - 1.0), 0.5 * s * (s + 1.0), 1.0 - s * s], vec![s - 0.5, s + 0.5, -2.0 * s]),
+        };
+        let slope: Vec3 = x.iter().zip(&d).map(|(x, d)| x * *d).sum();
+        (n.into_iter().map(|n| n * weight).collect(), slope)
+    };
+    places.iter().zip(weights).map(point).collect()
 }

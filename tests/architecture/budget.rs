@@ -4,17 +4,17 @@ use super::source::{CRATES, lines_below};
 
 /// Lines of the sources below src by crate, `program` for what lies beside them.
 const BUDGET: [(&str, usize); 11] = [
-    ("base", 6790),
+    ("base", 6960),
     ("linear", 4250),
-    ("mechanics", 33_700),
-    ("deck", 5350),
-    ("import", 9400),
-    ("model", 26_450),
-    ("solve", 34_800),
+    ("mechanics", 35_450),
+    ("deck", 5400),
+    ("import", 10_050),
+    ("model", 26_950),
+    ("solve", 34_850),
     ("results", 11_400),
-    ("study", 4220),
+    ("study", 4280),
     ("sweep", 1550),
-    ("program", 6330),
+    ("program", 6350),
 ];
 
 #[test]
