@@ -118,12 +118,15 @@ pub(super) fn require_concrete(name: &At<String>, law: &UniaxialLaw, report: &mu
     report.error_with(&name.span, message, "name a material of model \"concrete\"")
 }
 
+/// The centre and the radius of a bar in its section.
+type Laid = ([f64; 2], f64);
+
 /// Adds bars to the parts of a section, and takes away the concrete that they displace.
 fn bars<'d>(
     materials: &Materials<'d>,
     (owner, bars): (&Owner<'d>, &'d At<deck::words::Table<words::SectionBars>>),
     shape: &dyn SectionShape,
-    (parts, laid, depth_of_core): (&mut Vec<SectionPart>, &mut Vec<([f64; 2], f64)>, f64),
+    (parts, laid, depth_of_core): (&mut Vec<SectionPart>, &mut Vec<Laid>, f64),
     needs_mass: bool,
     report: &mut Report<'d>,
 ) -> Option<()> {
@@ -149,7 +152,7 @@ fn bars<'d>(
             let hint = format!("its centre is {} deep, its radius is {}", short(depth), short(radius));
             return report.error_with(&bars.span, message, hint);
         }
-        let touches = |([v, w], other): &&([f64; 2], f64)| (y - v).hypot(z - w) < (radius + other) * (1.0 - 1e-9);
+        let touches = |([v, w], other): &&Laid| (y - v).hypot(z - w) < (radius + other) * (1.0 - 1e-9);
         if let Some(([v, w], _)) = laid.iter().find(touches) {
             let [y, z, v, w] = [y, z, *v, *w].map(short);
             let message = format!("the bars at [{y}, {z}] and [{v}, {w}] of {} overlap", owner.what);
