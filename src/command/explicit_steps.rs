@@ -8,7 +8,7 @@ use solve::system::{System, added_at, governing};
 /// The multiples of the critical time step whose mass is told.
 const MULTIPLES: [f64; 3] = [2.0, 5.0, 10.0];
 
-/// More steps take longer than those of implicit schemes.
+/// Central differences are not offered for more steps: scenes of a few hundred elements then take minutes.
 const MOST_STEPS: f64 = 1e6;
 
 /// The critical time step of the elements, and the element that governs it.
@@ -52,8 +52,7 @@ pub fn offers(model: &Model, system: &System) -> Vec<(&'static str, String)> {
     MULTIPLES.into_iter().enumerate().map(line).collect()
 }
 
-/// Central differences beside a scheme that nobody asked for, where parts that deform strike something: each blow takes short steps of
-/// any scheme.
+/// Offers central differences if deformable parts strike something and the deck names no scheme: all schemes resolve a blow by short steps.
 pub fn alternative(model: &Model, system: &System) -> Option<String> {
     let touches = model.parts.iter().any(|part| part.kind().is_unilateral());
     let strikes = model.analysis.is_dynamic() && model.solution.scheme_is_chosen && touches;

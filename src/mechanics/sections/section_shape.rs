@@ -52,8 +52,8 @@ pub trait SectionShape: fmt::Debug {
         None
     }
 
-    /// Fibres of a cover of this thickness, and of the core within it, without modes for shear; `None` of shapes that have no core, and where
-    /// the cover leaves none.
+    /// Fibres of a cover of this thickness and of the core within it, without modes for shear. `None` if the shape takes no core, or the
+    /// cover fills it.
     fn cover_and_core(&self, _cover: f64, _counts: [usize; 2]) -> Option<[Vec<Fibre>; 2]> {
         None
     }

@@ -8,7 +8,7 @@ use base::names::short;
 use mechanics::elements::beam::FibreModel;
 use mechanics::materials::uniaxial::{Softening, UniaxialLaw};
 
-/// Reports concrete whose energy of softening is too small for the length that an integration point stands for. `materials` are those of the
+/// Reports concrete with too little energy of softening for the length of the beam at an integration point. `materials` are those of the
 /// beam and of the core of its section, in the order of the groups of fibres.
 pub(super) fn check_lengths(
     owner: &Owner,

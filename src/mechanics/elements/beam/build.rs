@@ -110,8 +110,8 @@ impl FibreModel {
         }
     }
 
-    /// True where bending in the plane of x and z (`along_z`) or of x and y causes no moment out of it: each material balances by itself at
-    /// each height. `None` is a plane along no axis of the section.
+    /// True if bending in the plane of x and z (`along_z`) or of x and y causes no moment out of it. Each material has to balance at each
+    /// height. `None` is a plane along no axis of the section.
     pub fn stays_in(&self, along_z: Option<bool>) -> bool {
         let balances = |along_z| self.groups.iter().all(|group| balance(&group.fibres, along_z));
         self.plastic().is_some() || along_z.is_some_and(balances)

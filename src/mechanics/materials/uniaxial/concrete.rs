@@ -1,11 +1,11 @@
 //! Concrete under normal stress: a parabola and a line in compression after Kent and Park, linear softening in tension, and the unloading of
 //! Yassin, as Concrete02 of OpenSees has them.
 //!
-//! With the strength f at the strain ε₀ = 2 f/E the stress in first compression is f (2 ε/ε₀ − (ε/ε₀)²), then a line to the residual
-//! strength at the crushing strain, which stays. Confinement raises strength and crushing strain (D. C. Kent and R. Park, J. Struct. Div. ASCE
+//! The strength f is reached at the strain ε₀ = 2 f/E. The stress in first compression is f (2 ε/ε₀ − (ε/ε₀)²) up to there. Then it falls
+//! along a line to the residual strength at the crushing strain, and stays. Confinement raises strength and crushing strain (D. C. Kent and R. Park, J. Struct. Div. ASCE
 //! 97 (1971) 1969-1990; B. D. Scott, R. Park and M. J. N. Priestley, ACI J. 79 (1982) 13-27).
 //!
-//! Unloading has the slope E until it meets the line of slope e/2 through the plastic strain ε_p; reloading has the slope E until it meets the
+//! Unloading has the slope E until it meets the line of slope e/2 through the plastic strain ε_p. Reloading has the slope E until it meets the
 //! line of slope e through ε_p and the point of largest compression. All lines of slope e meet at one point of the line of slope E (M. H. M.
 //! Yassin, dissertation, Berkeley 1994). Tension begins at ε_p. It is elastic until the tensile strength, softens along a line, and unloads
 //! towards ε_p.
@@ -64,10 +64,10 @@ impl ConcreteModel {
         [crushing, cracking]
     }
 
-    /// The law at a point that stands for this `length`, which is below [`ConcreteModel::longest`].
+    /// The law at a point with this `length` of the beam, below [`ConcreteModel::longest`].
     ///
     /// The energy of crushing is the area below the line of softening and the elastic unloading from its end (J. Coleman and E. Spacone, J.
-    /// Struct. Eng. 127 (2001) 1257-1265): G = ½ (f + r) (ε_u − ε₀ + (f − r)/E) L. That of cracking is ½ f_t ε_t L.
+    /// Struct. Eng. 127 (2001) 1257-1265): G = ½ (f + r) (ε_u − ε₀ + (f − r)/E) L. The energy of cracking is ½ f_t ε_t L.
     pub fn of_length(&self, length: f64) -> Concrete {
         let ConcreteModel { modulus: E, strength: f, residual: r, tensile_strength: f_t, .. } = *self;
         let peak = self.strain_at_strength();

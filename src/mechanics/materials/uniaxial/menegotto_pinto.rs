@@ -1,6 +1,7 @@
 //! Reinforcing steel after Menegotto and Pinto, with the isotropic hardening of Filippou, Popov and Bertero, as Steel02 of OpenSees has it.
 //!
-//! From each reversal the stress runs along a curve between the line of slope E through the reversal and the line of hardening of slope b E:
+//! From each reversal the stress follows a curve. It leaves the line of slope E through the reversal and approaches the line of hardening of
+//! slope b E:
 //!   σ* = b ε* + (1 − b) ε*/(1 + |ε*|ᴿ)^(1/R),   R = R₀ (1 − c₁ ξ/(c₂ + ξ)).
 //! ε* and σ* run from 0 at the reversal to 1 where the two lines meet. ξ is the distance in yield strains of this meeting point from the
 //! extreme strain on its side so far. The line of hardening moves outwards by the factor 1 + a₃ (Δ/2a₄ ε_y)^0.8 in tension and by a₁, a₂ in

@@ -29,7 +29,7 @@ pub enum UniaxialLaw<C = ConcreteModel> {
 pub type PointLaw = UniaxialLaw<Concrete>;
 
 impl UniaxialLaw {
-    /// True for a law that depends on the length that a point stands for.
+    /// True for a law that depends on the length of the beam at a point.
     pub fn needs_length(&self) -> bool {
         let UniaxialLaw::Concrete(model) = self else { return false };
         [model.crushing, model.cracking].iter().any(|end| matches!(end, Softening::Energy(_)))

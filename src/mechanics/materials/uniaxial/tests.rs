@@ -113,8 +113,8 @@ fn steps_of_any_length_agree() {
     }
 }
 
-/// Concrete by another way: its stress follows the elastic slope in small steps and is kept between two lines, whose common point is found
-/// anew; and steel by the derivative of its curve in steps of fourth order. 1e-6 of the strength is the error of these steps.
+/// Concrete follows the elastic slope in small steps, and its stress is kept between two lines with a common point that is found anew. Steel
+/// follows the derivative of its curve in steps of fourth order. The error of these steps is 1e-6 of the strength.
 #[test]
 fn random_paths_are_those_of_an_integration_in_small_steps() {
     let path = random_path(0.004, 200, 11);
@@ -206,7 +206,7 @@ fn rounding_is_no_reversal() {
     }
 }
 
-/// Steel that moves to and fro within what the iteration leaves goes on as if it had not moved.
+/// Strains that oscillate within the error of the iteration do not change the path of steel.
 #[test]
 fn noise_of_the_iteration_is_no_reversal() {
     let law = PointLaw::MenegottoPinto(STEEL);
