@@ -441,6 +441,7 @@ fn ground<'d>(
         parts: Parts::default(),
         report: &mut *report,
     };
+    context.parts.foresee(deck, context.report);
     beams(&mut context);
     bars(&mut context);
     shells(&mut context);

@@ -1,12 +1,16 @@
 //! The deformable parts of a scene in the making, and where each table of the deck has left its nodes and elements.
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 
+use super::beams::paths::MOST_IN_SEGMENT;
 use super::data::Part;
 use super::report::Report;
+use super::shells::MOST_IN_PATCH;
 use base::diagnostic::Span;
 use base::math::Mat3;
+use deck::Deck;
 use deck::parts::PartIndex;
 use linear::available_memory;
 use mechanics::sections::{SectionStresses, Stiffness};
@@ -58,10 +62,8 @@ pub(super) struct Parts {
     pub releases: Vec<ReleasedEnd>,
     /// One for each table of a deformable part that has been begun.
     entries: BTreeMap<PartIndex, PartEntry>,
-    /// Elements that paths and patches have asked for so far.
-    asked: usize,
-    /// The number of elements that fit into memory, once determined.
-    most: Option<f64>,
+    /// True where the elements of paths and patches together do not fit into memory.
+    too_many: bool,
 }
 
 impl Parts {
@@ -121,25 +123,48 @@ impl Parts {
         self.entries.values().any(|entry| entry.nodes.contains(&node))
     }
 
-    /// Counts elements that paths and patches are to be cut into, before they take memory. Together more than
-    /// there is memory for are an error.
-    pub fn ask_for(&mut self, elements: usize, place: &Span, report: &mut Report) -> Option<()> {
-        let before = self.asked;
-        self.asked = before.saturating_add(elements);
-        if self.asked < FEW {
-            return Some(());
-        }
-        let most = *self.most.get_or_insert_with(|| available_memory().map_or(f64::INFINITY, |bytes| bytes / BYTES));
-        if self.asked as f64 <= most {
-            return Some(());
-        }
-        // Later parts exceed the limit too, so the error is reported once.
-        if before as f64 <= most {
-            let message = format!("with this the deck has {} elements", self.asked);
-            let hint =
-                format!("they need at least {:.1} GB, more memory than there is", BYTES * self.asked as f64 / 1e9);
+    /// Counts the elements that paths and patches are to be cut into, before any takes memory. The table with which they become more than there
+    /// is memory for is an error; nothing is then cut.
+    pub fn foresee(&mut self, deck: &Deck, report: &mut Report) {
+        let mut asked = 0_usize;
+        let most = OnceCell::new();
+        for (elements, place) in asked_elements(deck) {
+            asked = asked.saturating_add(elements);
+            let most = || *most.get_or_init(|| available_memory().map_or(f64::INFINITY, |bytes| bytes / BYTES));
+            if asked < FEW || asked as f64 <= most() {
+                continue;
+            }
+            let message = format!("with this the deck has {asked} elements");
+            let hint = format!("they need at least {:.1} GB, more memory than there is", BYTES * asked as f64 / 1e9);
             report.error_with::<()>(place, message, hint);
+            self.too_many = true;
+            break;
         }
-        None
     }
+
+    /// `None` where the elements of the deck together do not fit into memory.
+    pub fn require_room(&self) -> Option<()> {
+        (!self.too_many).then_some(())
+    }
+}
+
+/// The number of elements that each path and patch asks for, with its place, in the order of reading. Numbers that are too large for one path or
+/// patch are left out: they are errors of their own.
+fn asked_elements(deck: &Deck) -> impl Iterator<Item = (usize, &Span)> {
+    let beams = deck.beams.iter().map(|beam| (&beam.elements, &beam.path));
+    let bars = deck.bars.iter().map(|bar| (&bar.elements, &bar.path));
+    let lines = beams.chain(bars).filter_map(|(elements, path)| {
+        let (counts, points) = (elements.as_ref()?, path.as_ref()?);
+        let segments = if counts.value.single { points.value.values.len().saturating_sub(1) } else { 1 };
+        let sum = counts.value.values.iter().map(|count| count.value as usize).fold(0, usize::saturating_add);
+        let sound = counts.value.values.iter().all(|count| count.value <= MOST_IN_SEGMENT);
+        sound.then(|| (sum.saturating_mul(segments), &counts.span))
+    });
+    let patches = deck.shells.iter().filter_map(|shell| {
+        let counts = shell.elements.as_ref()?;
+        let [first, last] = [counts.value.values.first()?, counts.value.values.last()?];
+        let elements = (first.value as usize).saturating_mul(last.value as usize);
+        (elements <= MOST_IN_PATCH).then_some((elements, &counts.span))
+    });
+    lines.chain(patches)
 }

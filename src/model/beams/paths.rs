@@ -6,7 +6,7 @@ use base::diagnostic::At;
 use deck::words::{Maybe, OneOrMany};
 
 /// Largest number of elements in a segment; more are taken for a typing error, and would exhaust memory.
-const MOST_ELEMENTS: u64 = 1_000_000;
+pub const MOST_IN_SEGMENT: u64 = 1_000_000;
 
 /// Finds the nodes of a path of two or more points and connects them, for a beam with their `rotations`.
 pub fn path<'d>(
@@ -51,8 +51,8 @@ pub fn segments<'d>(
 pub fn counts<'d>(elements: &At<OneOrMany<u64>>, segments: usize, cx: &mut PartContext<'_, 'd>) -> Option<Vec<usize>> {
     let mut sound = true;
     for count in &elements.values {
-        if count.value == 0 || count.value > MOST_ELEMENTS {
-            let message = format!("`elements` must lie between 1 and {MOST_ELEMENTS}");
+        if count.value == 0 || count.value > MOST_IN_SEGMENT {
+            let message = format!("`elements` must lie between 1 and {MOST_IN_SEGMENT}");
             cx.report.error::<()>(&count.span, message);
             sound = false;
         }
@@ -69,6 +69,6 @@ pub fn counts<'d>(elements: &At<OneOrMany<u64>>, segments: usize, cx: &mut PartC
     if !sound {
         return None;
     }
-    cx.parts.ask_for((0..segments).map(count).sum(), &elements.span, cx.report)?;
+    cx.parts.require_room()?;
     Some((0..segments).map(count).collect())
 }

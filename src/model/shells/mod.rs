@@ -24,7 +24,7 @@ use std::collections::{HashMap, HashSet};
 
 /// Largest number of elements along an edge; more are taken for a typing error, and would exhaust memory.
 const MOST_ELEMENTS: u64 = 10_000;
-const MOST_IN_ALL: usize = 1_000_000;
+pub const MOST_IN_PATCH: usize = 1_000_000;
 const DEFAULT_LAYERS: usize = 8;
 
 /// Reads `[[shells]]`: divides each patch into elements, or uses those of a group of the mesh.
@@ -380,11 +380,11 @@ fn read_counts<'d>(counts: &At<OneOrMany<u64>>, cx: &mut PartContext<'_, 'd>) ->
         }
     }
     let [n, m] = [values.first()?.value as usize, values.last()?.value as usize];
-    if n * m > MOST_IN_ALL {
-        let message = format!("{n} x {m} elements: at most {MOST_IN_ALL} are allowed in a patch");
+    if n * m > MOST_IN_PATCH {
+        let message = format!("{n} x {m} elements: at most {MOST_IN_PATCH} are allowed in a patch");
         return cx.report.error(&counts.span, message);
     }
-    cx.parts.ask_for(n * m, &counts.span, cx.report)?;
+    cx.parts.require_room()?;
     Some([n, m])
 }
 
