@@ -115,7 +115,7 @@ pub enum Control {
     /// snap-through and snap-back.
     ArcLength,
     /// Steps move the displacement of `stop` by equal increments; time, which drives the loads, follows and may fall: pushover with a
-    /// pattern of loads.
+    /// pattern of loads. Loads without an amplitude all belong to the pattern, weight too; those with one of kind "constant" stay.
     Displacement,
 }
 

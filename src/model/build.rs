@@ -43,6 +43,7 @@ use super::plausibility::amplitude_ends::check_amplitude_ends;
 use super::plausibility::angles::check_angles;
 use super::plausibility::node_places::place_nodes;
 use super::plausibility::proportions::check_proportions;
+use super::plausibility::scaled_loads::check_scaled_loads;
 use super::plausibility::slivers::check_slivers;
 use super::plausibility::ties::Ties;
 use super::plausibility::units::check_units;
@@ -256,6 +257,7 @@ fn model<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, files: Files<'d>, 
     let (mut joined, efforts) = connect(&scene, nodes, amplitudes, report);
     let acting = act(&mut scene, &mut joined, efforts, report);
     let asked = ask(&scene, &procedure.scheme, acting.actors, &joined, report);
+    check_scaled_loads(&scene, asked.arc_length.as_ref(), (&acting.loads.nodal, &joined.topology), report);
     let mesh = check(&scene, &procedure.scheme, groups, &joined, report);
     let JoinedNodes { masses, links, joints, amplitudes, mut topology } = joined;
     let contacts = acting.contacts;

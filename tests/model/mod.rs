@@ -15,5 +15,6 @@ mod record;
 mod records;
 mod releases;
 mod rotations;
+mod scaled_loads;
 mod superelements;
 mod tables_of_positions;

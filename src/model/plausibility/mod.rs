@@ -9,6 +9,7 @@ pub mod node_places;
 pub mod overlaps;
 pub mod proportions;
 pub mod record_units;
+pub mod scaled_loads;
 pub mod slivers;
 pub mod ties;
 pub mod units;
