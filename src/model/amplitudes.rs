@@ -34,7 +34,8 @@ pub(super) fn amplitudes<'d>(
         let waits = waits.map(|(time, _)| time);
         let record = file.map(|record| (record, conversion(deck, index, record).unwrap_or(1.0)));
         let read = read_amplitude(&name.value, amplitude, (record, waits.is_some()), report);
-        let read = read.unwrap_or(Amplitude::Constant);
+        // In place of one with errors: it begins at zero, as a motion has to.
+        let read = read.unwrap_or(Amplitude::Ramp { start: 0.0, end: 1.0 });
         match waits.or_else(|| stage.map(|stage| stage.clock(&amplitude.stage))) {
             Some(clock) if clock > 0.0 => read.later(clock),
             _ => read,

@@ -65,6 +65,10 @@ pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut 
         }
         let given = [words.scale.as_ref().map(|scale| scale.value), used.scale];
         let factor = given.iter().flatten().product::<f64>().abs();
+        // The word for numbers that are in the units of the deck, whatever the header says.
+        if given == [Some(1.0), None] {
+            continue;
+        }
         check_factor(deck, &used, (file, unit), given.iter().any(Option::is_some).then_some(factor), report);
     }
 }
@@ -140,7 +144,7 @@ fn check_factor(deck: &Deck, used: &Use, (file, unit): (&str, &RecordUnit), fact
             if !(right / slack..=right * slack).contains(&given) && given != 0.0 {
                 let message = format!("the record `{file}` is in {}, and {factor_is}", unit.name);
                 report.warn(used.place, message, format!("in the units {label} that is `scale = {}`", short(right)));
-            } else if given < WEAK * right && ![0.0, 1.0].contains(&given) {
+            } else if given < WEAK * right && given != 0.0 {
                 let message = format!(
                     "the record `{file}` is in {}, and {factor_is}: it acts at {} of its strength",
                     unit.name,
@@ -152,7 +156,7 @@ fn check_factor(deck: &Deck, used: &Use, (file, unit): (&str, &RecordUnit), fact
                     short(right),
                     unit.name.to_lowercase()
                 );
-                report.note(used.place, message, hint);
+                report.warn(used.place, message, hint);
             }
         }
         (None, None) => {
