@@ -9,6 +9,7 @@ use clap::Args;
 use super::console::{complain, print, say};
 use super::exit::Exit;
 use results::report::{View, page, scene_picture};
+use results::torn_tables;
 
 #[derive(Debug, Args)]
 #[command(
@@ -72,6 +73,8 @@ pub fn report(args: &ReportArgs) -> Result<(), Exit> {
     if !args.overwrite && file.exists() {
         return Err(exists());
     }
+    let torn = torn_tables(&args.dir).map_err(|error| fault(format!("cannot read results: {error}")))?;
+    torn.iter().for_each(|torn| say(&format!("warning: {torn}")));
     let (page, time) = contents(args).map_err(|error| fault(format!("cannot read results: {error}")))?;
     let mut options = OpenOptions::new();
     let options = if args.overwrite {

@@ -1,6 +1,6 @@
 //! `rdsolve summary DIR`: peaks and ends of all columns of a result, and its status.
 
-use super::console::{complain, print};
+use super::console::{complain, print, say};
 use super::exit::Exit;
 use base::names::to_digits;
 use clap::{Args, ValueEnum};
@@ -8,6 +8,7 @@ use results::compare::Selector;
 use results::curve::{Curve, CurveAxis};
 use results::low_pass::{LowPass, TimeSampling};
 use results::summary::{ColumnSummary, Extremum, Filter, ResultSummary};
+use results::torn_tables;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -72,6 +73,10 @@ pub fn summary(args: &SummaryArgs) -> Result<(), Exit> {
     };
     let second = if args.time_unit == TimeUnit::Ms { 1e-3 } else { 1.0 };
     let filter = args.filter.map(|low_pass| Filter { low_pass, second });
+    // The other forms hold it.
+    if !args.curve.is_empty() || args.format == Format::Csv {
+        torn_tables(&args.dir).map_err(unreadable)?.iter().for_each(|torn| say(&format!("warning: {torn}")));
+    }
     if let [x, y] = &args.curve[..] {
         let mut curve = Curve::read(&args.dir, [x, y]).map_err(unreadable)?;
         if let Some(filter) = filter {

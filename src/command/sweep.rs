@@ -124,6 +124,9 @@ pub fn sweep(args: &SweepArgs) -> Result<(), Exit> {
              in `[output]` of the deck"
         ));
     }
+    for (case, torn) in folder.torn_tables(&states).map_err(|error| cannot_write(&folder.path, &error))? {
+        say(&format!("warning: case {case}: {torn}"));
+    }
     sweep.conclude(&chosen, &states)
 }
 
@@ -297,19 +300,31 @@ impl Sweep<'_> {
 
     /// Reports the states of the chosen cases.
     fn conclude(&self, chosen: &[usize], states: &[CaseState]) -> Result<(), Exit> {
-        /// The number of reported failures; the summary has all of them.
+        /// The number of reported reasons; the summary has all of them.
         const TOLD: usize = 20;
+        /// The number of cases that are named with a reason.
+        const NAMED: usize = 5;
         let of = |is: fn(&CaseState) -> bool| chosen.iter().filter(|&&case| is(&states[case])).count();
         let failed = of(|state| matches!(state, CaseState::Failed(_)));
         let missed = of(|state| matches!(state, CaseState::Missed(_)));
         let pending = of(|state| matches!(state, CaseState::Pending));
         let done = chosen.len() - failed - missed - pending;
-        let is_failure = |case: &&usize| matches!(states[**case], CaseState::Failed(_));
-        for &case in chosen.iter().filter(is_failure).take(TOLD) {
-            complain(&format!("case {}: {}", case + 1, states[case].reason()));
+        // An error of the deck is that of all its cases.
+        let mut reasons: Vec<(&str, Vec<usize>)> = Vec::new();
+        for &case in chosen.iter().filter(|&&case| matches!(states[case], CaseState::Failed(_))) {
+            match reasons.iter_mut().find(|(reason, _)| *reason == states[case].reason()) {
+                Some((_, cases)) => cases.push(case + 1),
+                None => reasons.push((states[case].reason(), vec![case + 1])),
+            }
         }
-        if failed > TOLD {
-            say(&format!("… and {} more: see summary.csv", failed - TOLD));
+        for (reason, cases) in reasons.iter().take(TOLD) {
+            let first: Vec<String> = cases.iter().take(NAMED).map(usize::to_string).collect();
+            let more = if cases.len() > NAMED { format!(" and {} more", cases.len() - NAMED) } else { String::new() };
+            let word = if cases.len() > 1 { "cases" } else { "case" };
+            complain(&format!("{word} {}{more}: {reason}", first.join(", ")));
+        }
+        if reasons.len() > TOLD {
+            say(&format!("… and {} more reasons: see summary.csv", reasons.len() - TOLD));
         }
         if !self.quiet {
             let parts = [(missed, "missed expected values"), (failed, "failed"), (pending, "are still to be run")];

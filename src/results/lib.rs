@@ -35,6 +35,7 @@ mod table_file;
 pub mod table_reader;
 pub mod table_size;
 pub mod tables;
+mod torn;
 mod vtu;
 
 pub use disk::{at, make_safe, replace};
@@ -45,3 +46,4 @@ pub use lock::{FolderLock, host};
 pub use shared_lock::SharedLock;
 pub use table_size::{expected_sizes, settle_cadence};
 pub use tables::TABLES;
+pub use torn::torn_tables;

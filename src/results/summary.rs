@@ -7,6 +7,7 @@ use super::result_json;
 use super::table::STAGE;
 use super::table_reader::{TableReader, fields, number, text};
 use super::tables::TABLES;
+use super::torn::torn_tables;
 use base::names::to_digits;
 use base::text_file::read_regular;
 use serde::Serialize;
@@ -22,7 +23,7 @@ pub struct ResultSummary {
     pub status: String,
     /// The reason for its end; empty when done.
     pub reason: String,
-    /// All warnings.
+    /// All warnings: of the run, of the filter, and of tables that end within a row.
     pub warnings: Vec<String>,
     /// The expected values with what became of them, in words.
     pub expectations: Vec<String>,
@@ -92,7 +93,12 @@ impl ResultSummary {
         Ok(ResultSummary {
             status: result["status"].as_str().unwrap_or("unfinished").to_owned(),
             reason: word("reason"),
-            warnings: list("warnings").filter_map(Value::as_str).map(str::to_owned).chain(doubts).collect(),
+            warnings: list("warnings")
+                .filter_map(Value::as_str)
+                .map(str::to_owned)
+                .chain(doubts)
+                .chain(torn_tables(folder)?)
+                .collect(),
             expectations: list("expectations").map(expectation).collect(),
             columns,
         })

@@ -13,7 +13,7 @@ use base::diagnostic::Source;
 use base::text_file::{read_regular, read_text};
 use deck::Deck;
 use rayon::prelude::*;
-use results::{at, result_json};
+use results::{at, result_json, torn_tables};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
@@ -145,6 +145,18 @@ impl SweepFolder {
         Ok(if done > 0 { empty.into_iter().map(|(one, _)| one).collect() } else { Vec::new() })
     }
 
+    /// The tables of complete cases that end within a row, with the number of the case from 1.
+    ///
+    /// # Errors
+    /// A folder of a case cannot be read.
+    pub fn torn_tables(&self, states: &[CaseState]) -> io::Result<Vec<(usize, String)>> {
+        let mut torn = Vec::new();
+        for (case, _) in states.iter().enumerate().filter(|(case, state)| stands(state) && self.case(*case).is_dir()) {
+            torn.extend(torn_tables(&self.case(case))?.into_iter().map(|sentence| (case + 1, sentence)));
+        }
+        Ok(torn)
+    }
+
     /// Writes the summary of the cases that stand now.
     fn write_what_stands(&self, cases: &Cases) -> io::Result<Vec<CaseState>> {
         let wanted = &self.collect;
@@ -223,10 +235,14 @@ fn found(folder: &Path, result: &str) -> CaseState {
     }
 }
 
+/// True for a case whose tables are complete.
+fn stands(state: &CaseState) -> bool {
+    matches!(state, CaseState::Done | CaseState::Missed(_))
+}
+
 /// The numbers of a case in the summary: empty if its tables have none, or if it is incomplete.
 fn numbers(folder: &Path, state: &CaseState, wanted: &[Collected]) -> io::Result<Vec<String>> {
-    let stands = matches!(state, CaseState::Done | CaseState::Missed(_));
-    let numbers = if stands { collect(folder, wanted)? } else { vec![None; wanted.len()] };
+    let numbers = if stands(state) { collect(folder, wanted)? } else { vec![None; wanted.len()] };
     Ok(numbers.into_iter().map(|number| number.map_or(String::new(), |number| format!("{number:?}"))).collect())
 }
 

@@ -10,3 +10,4 @@ mod report;
 mod resultants;
 mod stresses;
 mod table_size;
+mod torn;

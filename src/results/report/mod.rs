@@ -18,6 +18,7 @@ mod view;
 use super::disk::at;
 use super::marks::SceneMarks;
 use super::tables::TABLES;
+use super::torn::torn_tables;
 use base::quantities::{ENERGY, Unit, UnitSystem};
 use base::text_file::read_regular;
 use data::PageScene;
@@ -73,7 +74,8 @@ impl Contents {
         for file in &files {
             histories.extend(History::read(folder, file)?.filter(|history| !history.times.is_empty()));
         }
-        let mut notes: Vec<String> = histories.iter().map(History::left_out).filter(|note| !note.is_empty()).collect();
+        let mut notes = torn_tables(folder)?;
+        notes.extend(histories.iter().map(History::left_out).filter(|note| !note.is_empty()));
         let mut scene = scene(folder, &histories, &mut notes)?;
         // Results of an unfinished run, and older ones, have no marks.
         if let (Some(scene), Ok(marks)) = (&mut scene, SceneMarks::deserialize(&result.json["marks"])) {
