@@ -2,9 +2,9 @@
 
 use super::arguments::CheckArgs;
 use super::console::{complain, print, show};
-use super::estimate::{effort, first_period};
+use super::estimate::{alternative, effort, first_period};
 use super::exit::Exit;
-use super::explicit_steps::{alternative, limit_of_steps, offers};
+use super::explicit_steps::{limit_of_steps, offers};
 use super::load::{load, plan, too_large};
 use super::memory::Forecast;
 use super::signals::EndAtOnce;
@@ -63,7 +63,7 @@ pub fn check(args: &CheckArgs) -> Result<(), Exit> {
         text.computed.extend(limit_of_steps(model, system));
         text.computed.extend(effort(model, system, plan).map(|line| ("effort", line)));
         text.computed.extend(offers(model, system));
-        text.notes.extend(alternative(model, system));
+        text.notes.extend(alternative(model));
     }
     if args.first_period {
         texts[0].computed.push(("first mode", first_period(&loaded.model)));

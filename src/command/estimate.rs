@@ -2,19 +2,23 @@
 
 use super::console::counted;
 use base::names::{instant, short, to_digits};
-use model::{AnalysisKind, ModeExtent, Model, ModesAsked, StepLength};
+use deck::parts::PartKind;
+use mechanics::integrators::{CentralDifference, RotationUpdate};
+use model::{AnalysisKind, ModeExtent, Model, ModesAsked, RotaryInertia, StepLength};
 use solve::modes::EigenMode;
 use solve::plan::Plan;
 use solve::system::System;
 use solve::{Frame, Observer, Outcome, Run, Wanted};
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc;
+use std::sync::{Arc, mpsc};
 use std::thread;
 use std::time::{Duration, Instant};
 
 /// The time for which the first steps of a run are measured.
 const BUDGET: Duration = Duration::from_millis(250);
+/// Central differences are not offered for longer runs, in seconds.
+const LONGEST: f64 = 600.0;
 /// Modes among which the first with stiffness is looked for: six rigid motions may come before it.
 const MODES: usize = 7;
 
@@ -52,8 +56,18 @@ impl Clock {
     }
 }
 
-/// The number of steps and their time on this machine, by the first ones, which are made and forgotten. `None` where there are no steps in time.
-pub fn effort(model: &Model, system: &System, plan: &Plan) -> Option<String> {
+/// The first steps of a run, made and forgotten.
+struct Rehearsal {
+    /// The number of all steps, where they have one length.
+    steps: Option<f64>,
+    /// The number of steps that were measured, and the time of one in seconds.
+    rate: Option<(usize, f64)>,
+    /// The time of the run that they reached.
+    reached: f64,
+}
+
+/// Makes the first steps of a run and forgets them. `None` where there are no steps in time.
+fn rehearse(model: &Model, system: &System, plan: &Plan) -> Option<Rehearsal> {
     let analysis = &model.analysis;
     if analysis.has_modes() {
         return None;
@@ -79,19 +93,24 @@ pub fn effort(model: &Model, system: &System, plan: &Plan) -> Option<String> {
         Outcome::Stopped { time } | Outcome::Failed { time, .. } => time,
         Outcome::Io(_) => return None,
     };
-    let all = match &analysis.step_length {
+    let steps = match &analysis.step_length {
         StepLength::Fixed { step } => Some((analysis.duration() / step - 1e-9).ceil().max(1.0)),
         StepLength::StabilityLimited { .. } if clock.steps > 1 && reached > analysis.begin => {
             Some((analysis.duration() * (clock.steps - 1) as f64 / (reached - analysis.begin)).ceil())
         }
         _ => None,
     };
-    let rate = clock.rate();
-    match (all, rate) {
+    Some(Rehearsal { steps, rate: clock.rate(), reached })
+}
+
+/// The number of steps and their time on this machine, by the first ones. `None` where there are no steps in time.
+pub fn effort(model: &Model, system: &System, plan: &Plan) -> Option<String> {
+    let Rehearsal { steps, rate, reached } = rehearse(model, system, plan)?;
+    match (steps, rate) {
         (Some(all), Some((measured, each))) => {
             // Steps that are cut are counted too.
             let measured = measured.min(all as usize);
-            let about = if matches!(analysis.step_length, StepLength::Fixed { .. }) { "" } else { "about " };
+            let about = if matches!(model.analysis.step_length, StepLength::Fixed { .. }) { "" } else { "about " };
             Some(format!(
                 "{about}{} in {} without output: {} a second on this machine, at the rate of the first {measured}",
                 counted_steps(all),
@@ -107,6 +126,35 @@ pub fn effort(model: &Model, system: &System, plan: &Plan) -> Option<String> {
         )),
         (None, None) => None,
     }
+}
+
+/// Offers central differences to a deck that names no scheme, if deformable parts strike something and the run takes minutes at most: all
+/// schemes resolve a blow by short steps.
+pub fn alternative(model: &Model) -> Option<String> {
+    let has_part = |is: fn(PartKind) -> bool| model.parts.iter().any(|part| is(part.kind()));
+    let strikes = has_part(PartKind::is_unilateral) && has_part(PartKind::is_deformable);
+    let fits = !has_part(PartKind::is_floating) && model.damping.modal.is_empty();
+    if !(model.analysis.is_dynamic() && model.solution.scheme_is_chosen && strikes && fits) {
+        return None;
+    }
+    let mut by_central = model.clone();
+    by_central.solution.scheme =
+        Arc::new(CentralDifference { rotation: RotationUpdate::default(), mass_scaling_step: None });
+    by_central.solution.rotary_inertia = RotaryInertia::default();
+    by_central.analysis.step_length = StepLength::StabilityLimited { fraction: model.stable_fraction() };
+    let system = System::new(&by_central).ok()?;
+    let plan = Plan::new(&by_central, &system, 1);
+    let Rehearsal { steps, rate, .. } =
+        rehearse(&by_central, &system, &plan).filter(|_| plan.massless(&by_central, &system).is_empty())?;
+    let (all, (_, each)) = (steps?, rate?);
+    (all * each < LONGEST).then(|| {
+        format!(
+            "blows of parts that deform often take less time by `scheme = \"central-difference\"` in [integrator] without `error_tolerance`: here \
+             about {} in {} on this machine. Compare both",
+            counted_steps(all),
+            span(all * each)
+        )
+    })
 }
 
 fn counted_steps(all: f64) -> String {

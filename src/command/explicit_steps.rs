@@ -8,9 +8,6 @@ use solve::system::{System, added_at, governing};
 /// The multiples of the critical time step whose mass is told.
 const MULTIPLES: [f64; 3] = [2.0, 5.0, 10.0];
 
-/// Central differences are not offered for more steps: scenes of a few hundred elements then take minutes.
-const MOST_STEPS: f64 = 1e6;
-
 /// The critical time step of the elements, and the element that governs it.
 pub fn limit_of_steps(model: &Model, system: &System) -> Option<(&'static str, String)> {
     let found = governed(model).then(|| governing(model, &system.groups, system.mass_scaling().is_some())).flatten()?;
@@ -50,20 +47,6 @@ pub fn offers(model: &Model, system: &System) -> Vec<(&'static str, String)> {
         (if k == 0 { "longer" } else { "" }, what)
     };
     MULTIPLES.into_iter().enumerate().map(line).collect()
-}
-
-/// Offers central differences if deformable parts strike something and the deck names no scheme: all schemes resolve a blow by short steps.
-pub fn alternative(model: &Model, system: &System) -> Option<String> {
-    let touches = model.parts.iter().any(|part| part.kind().is_unilateral());
-    let strikes = model.analysis.is_dynamic() && model.solution.scheme_is_chosen && touches;
-    let found = strikes.then(|| governing(model, &system.groups, true)).flatten()?;
-    let steps = model.analysis.duration() / (model.stable_fraction() * found.step);
-    (steps < MOST_STEPS).then(|| {
-        format!(
-            "blows of parts that deform often take less time by `scheme = \"central-difference\"` in [integrator], here about {} steps; compare both",
-            to_digits(steps, 2)
-        )
-    })
 }
 
 /// True where central differences move the scene.

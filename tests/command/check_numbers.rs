@@ -146,3 +146,80 @@ fn the_first_period_is_that_of_an_oscillator() {
     let free = deck.split("[[supports]]").next().unwrap();
     assert!(line(&check(free, &["--first-period"]), "first mode").contains("no mode has stiffness"));
 }
+
+/// A sheet that a ball strikes, with nothing said of the scheme.
+const STRUCK: &str = r#"
+[analysis]
+kind = "dynamic"
+end_time = 0.01
+time_step = "auto"
+[materials.steel]
+model = "elastic"
+youngs_modulus = 210e9
+poisson_ratio = 0.3
+density = 7850.0
+[points]
+a = [0.0, 0.0, 0.0]
+b = [0.5, 0.0, 0.0]
+c = [0.5, 0.5, 0.0]
+d = [0.0, 0.5, 0.0]
+[[shells]]
+name = "sheet"
+corners = ["a", "b", "c", "d"]
+elements = [4, 4]
+thickness = 0.002
+material = "steel"
+[[bodies]]
+name = "ball"
+center = [0.3, 0.2, 0.06]
+mass = 0.5
+velocity = [0.0, 0.0, -5.0]
+shape = { kind = "sphere", radius = 0.05 }
+[[contacts]]
+name = "blow"
+surface = { part = "sheet" }
+with = "ball"
+[[supports]]
+at = ["a", "b", "c", "d"]
+fix = "all"
+"#;
+
+/// The number before a word of a line.
+fn number_before(line: &str, word: &str) -> f64 {
+    let before = line.split(word).next().unwrap().trim_end();
+    before.rsplit(' ').next().unwrap().trim_end_matches(',').parse().unwrap_or_else(|_| panic!("{word} in {line}"))
+}
+
+/// Central differences are offered with the number of steps that they then take, measured by making the first ones; where the deck names a
+/// scheme, or the run would take hours, they are not offered.
+#[test]
+fn central_differences_are_offered_with_the_steps_that_they_take() {
+    let told = check(STRUCK, &[]);
+    let offer =
+        told.lines().find(|line| line.contains("blows of parts that deform")).unwrap_or_else(|| panic!("{told}"));
+    let central = "[integrator]\nscheme = \"central-difference\"\n[materials.steel]";
+    let accepted = check(&STRUCK.replace("[materials.steel]", central), &[]);
+    let [offered, taken] = [number_before(offer, " steps in "), number_before(line(&accepted, "effort"), " steps in ")];
+    // The sheet stiffens as it bends, so that steps shorten along the run, and more or fewer of them are made in the time of a check.
+    assert!((offered - taken).abs() < 0.2 * taken, "{offered} {taken}");
+    assert!(!accepted.contains("blows of parts"), "{accepted}");
+    let long = check(&STRUCK.replace("end_time = 0.01", "end_time = 1e5"), &[]);
+    assert!(!long.contains("blows of parts"), "{long}");
+}
+
+/// The `mass_scaling_step` of each offer adds the mass of the offer, up to the three digits of the step.
+#[test]
+fn mass_scaling_adds_what_was_offered() {
+    let central = "[integrator]\nscheme = \"central-difference\"\n[materials.steel]";
+    let deck = STRUCK.replace("[materials.steel]", central);
+    let told = check(&deck, &[]);
+    let offers: Vec<&str> = told.lines().filter(|line| line.contains("would add")).collect();
+    assert_eq!(offers.len(), 3, "{told}");
+    for offer in offers {
+        let behind = |words: &str| offer.split(words).nth(1).unwrap().split(',').next().unwrap().trim();
+        let (step, offered) = (behind("`mass_scaling_step` ="), behind("would add").parse::<f64>().unwrap());
+        let accepted = check(&deck, &["--set", &format!("integrator.mass_scaling_step={step}")]);
+        let added: f64 = line(&accepted, "mass added").split(',').next().unwrap().parse().unwrap();
+        assert!((added - offered).abs() < 0.015 * offered, "{offer}: {added}");
+    }
+}

@@ -8,7 +8,7 @@ use base::math::Vec3;
 use base::names::{short, to_digits};
 use mechanics::amplitude::Amplitude;
 use mechanics::state::Node;
-use model::{self, DIRECTIONS, History, Model};
+use model::{self, DIRECTIONS, History, Load, Model};
 
 /// Times at which loads and motions are looked at, besides the points of tables.
 const SAMPLES: usize = 1000;
@@ -58,8 +58,8 @@ fn times(model: &Model) -> Vec<f64> {
     times
 }
 
-/// The sums of forces and moments on nodes and of pressures on faces, by direction: "Fx 0 to 1200, Fz -300". Weight and motors are not among
-/// them.
+/// The sums of forces and moments on nodes and of pressures on faces, by direction: "Fx 0 to 1200, Fz -300". Weight, motors and pretension are not
+/// among them.
 fn loads(model: &Model, excitation: &Excitation, times: &[f64]) -> Option<String> {
     let mut sums: Vec<(Option<usize>, [f64; 6])> = Vec::new();
     let mut add = |amplitude: Option<usize>, force: Vec3, moment: Vec3| {
@@ -70,7 +70,9 @@ fn loads(model: &Model, excitation: &Excitation, times: &[f64]) -> Option<String
         (0..3).for_each(|i| sums[place].1[i] += force[i]);
         (0..3).for_each(|i| sums[place].1[3 + i] += moment[i]);
     };
-    for load in model.loading.nodal.iter().filter(|load| load.coordinate().is_none()) {
+    // The pretension of a link acts on a number, its shortening, and not in a direction.
+    let acts = |load: &&Load| load.coordinate().is_none() && !model.nodes[load.node].is_number;
+    for load in model.loading.nodal.iter().filter(acts) {
         let moment = if load.moment_counts { load.moment } else { Vec3::zeros() };
         add(load.amplitude, load.force, moment);
     }
