@@ -325,7 +325,14 @@ impl Amplitude {
         if let Amplitude::Curve(curve) = self {
             return curve.corners().to_vec();
         }
-        let jumps = |time: &f64| self.rate(*time, Side::Before) != self.rate(*time, Side::After);
+        // A sine that ends with a whole wave has a slope of rounding there.
+        let rounding = match self {
+            Amplitude::Sine { angular_frequency, .. } | Amplitude::SineSquared { angular_frequency, .. } => {
+                1e-9 * angular_frequency
+            }
+            _ => 0.0,
+        };
+        let jumps = |time: &f64| (self.rate(*time, Side::Before) - self.rate(*time, Side::After)).abs() > rounding;
         let mut all = self.kinks();
         all.dedup();
         all.retain(jumps);

@@ -189,3 +189,11 @@ fn stages_that_part_at_kinks_go_on_over_them() {
         }
     }
 }
+
+/// A sine squared that ends with a whole wave is at rest there, up to rounding, and no jump of a velocity is told.
+#[test]
+fn a_whole_wave_ends_without_a_jump() {
+    let wave = |w: f64, end: f64| rdsolve::amplitude::Amplitude::SineSquared { angular_frequency: w, start: 0.0, end };
+    assert!(wave(std::f64::consts::PI / 0.9, 0.9).slope_jumps().is_empty());
+    assert_eq!(wave(std::f64::consts::PI / 0.9, 0.8).slope_jumps(), [0.8]);
+}

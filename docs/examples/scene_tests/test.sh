@@ -13,6 +13,9 @@ for deck in scenes/*.toml; do
         rm -rf "reference/$name"
         mkdir -p "reference/$name"
         cp "new/$name"/*.csv "new/$name/result.json" "reference/$name"
+    elif [ ! -d "reference/$name" ]; then
+        echo "FAILED $name: it has no reference yet; look at new/$name, then ./test.sh --accept"
+        failed=1
     elif ! "$program" compare "reference/$name" "new/$name" --tolerance 1e-6 --quiet; then
         echo "FAILED $name: not what it was"
         failed=1
