@@ -130,10 +130,14 @@ pub enum Failure {
         /// True where steps find their own length.
         automatic: bool,
     },
-    /// Central differences have generated energy.
+    /// The time integration has generated so much energy that the motion is lost.
     EnergyGrowth {
         /// The energy generated, as a multiple of the available energy.
         ratio: f64,
+        /// The word of the scheme.
+        scheme: String,
+        /// The key of the deck that shortens the steps.
+        shortens: String,
         /// The time of the last check with a kept balance of energy.
         kept_until: f64,
     },
@@ -205,7 +209,7 @@ keep_either!(Failure {
     9 => BushingTurnedOver { name },
     10 => BushingTurnsTooFar { name, dt },
     11 => Unstable { dt, longest, automatic },
-    12 => EnergyGrowth { ratio, kept_until },
+    12 => EnergyGrowth { ratio, scheme, shortens, kept_until },
     13 => RotationTooLarge { dt },
     14 => LoadStepTurns { label, angle },
     15 => TurnedOver { name },
@@ -298,6 +302,20 @@ pub(super) fn gaps(model: &Model, system: &System, gaps: &[f64]) -> Vec<NamedRes
     let mut widest = sorted(gaps, |number| multiplier(model, system, number));
     widest.retain(|gap| gap.residual != 0.0);
     widest
+}
+
+/// The message on a lost motion, with the remedy for the scheme.
+fn energy_growth(ratio: f64, scheme: &str, shortens: &str) -> String {
+    let long = "because their steps are too long for this motion. Give half of `time_step`, or an implicit scheme";
+    match scheme {
+        "central-difference" => {
+            format!("energy growth: central differences have generated {ratio:.1e} times the available energy, {long}")
+        }
+        _ => format!(
+            "energy growth: `{scheme}` has generated {ratio:.1e} times the available energy, and the motion is lost. Give `scheme = \"bathe\"`, which \
+             dissipates motions that steps do not resolve, and a tenth of `{shortens}`"
+        ),
+    }
 }
 
 /// The message of a singular matrix, with a part there that is open or slack.
@@ -548,10 +566,7 @@ impl Failure {
                      {remedy}, or an implicit scheme"
                 )
             }
-            Failure::EnergyGrowth { ratio, .. } => format!(
-                "energy growth: central differences have generated {ratio:.1e} times the available energy, because their steps are too long for \
-                 this motion. Give half of `time_step`, or an implicit scheme"
-            ),
+            Failure::EnergyGrowth { ratio, scheme, shortens, .. } => energy_growth(*ratio, scheme, shortens),
             Failure::RotationTooLarge { dt } => format!(
                 "in a step of {dt:.3e} a node rotates by more than 3 radians, which explicit schemes do not resolve. Give `time_step` = {}",
                 short(0.1 * dt)

@@ -69,7 +69,8 @@ fn overshoot_of_every_scheme_on_the_stiff_chain() {
         let sets = [&format!("integrator={scheme}"), "iteration.tolerance=1e-12"];
         let model = variant("extreme/stiff_spring_chain", &sets);
         let m2 = node(&model, "m2");
-        let a: Vec<f64> = run_to_the_end(&model, &mut |frame| vec![frame.state.nodes[m2].a.x]).rows.concat();
+        // By Newmark's method the stiff mode rings on with more energy than there was, and the run fails at its end.
+        let a: Vec<f64> = support::run(&model, &mut |frame| vec![frame.state.nodes[m2].a.x]).rows.concat();
         let (most, least) =
             (a[1..].iter().copied().fold(f64::MIN, f64::max), a.iter().copied().fold(f64::MAX, f64::min));
         let got = [a[1], a[2], a[3], a[4], a[5], most, least];

@@ -50,7 +50,9 @@ fn every_deck_meets_its_values() {
                 let text = failure.to_string();
                 let missing = comments.after("says: ").filter(|words| !text.contains(words));
                 misses.extend(missing.map(|words| format!("{name} does not say `{words}`: {text}")));
-                continue;
+                if done.verdicts.is_empty() {
+                    continue;
+                }
             }
             Outcome::Failed { time, failure } => misses.push(format!("{name}: at t = {time}: {failure}")),
             other => misses.push(format!("{name}: {other:?}")),
