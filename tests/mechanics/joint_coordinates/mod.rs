@@ -5,6 +5,7 @@ mod actuators;
 mod bennett;
 mod derivatives;
 mod door;
+mod driven_arm;
 mod drives;
 mod gears;
 mod hanging;
