@@ -3,7 +3,7 @@
 use super::console::counted;
 use base::names::{instant, short, to_digits};
 use deck::parts::PartKind;
-use mechanics::integrators::{CentralDifference, RotationUpdate};
+use mechanics::integrators::stability_limited;
 use model::{AnalysisKind, ModeExtent, Model, ModesAsked, RotaryInertia, StepLength};
 use solve::modes::EigenMode;
 use solve::plan::Plan;
@@ -11,27 +11,32 @@ use solve::system::System;
 use solve::{Frame, Observer, Outcome, Run, Wanted};
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, mpsc};
+use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 
 /// The time for which the first steps of a run are measured.
 const BUDGET: Duration = Duration::from_millis(250);
+/// The time after which they end though none has been measured.
+const PATIENCE: Duration = Duration::from_secs(2);
 /// Central differences are not offered for longer runs, in seconds.
 const LONGEST: f64 = 600.0;
 /// Modes among which the first with stiffness is looked for: six rigid motions may come before it.
 const MODES: usize = 7;
 
 /// The beginnings of steps.
-#[derive(Default)]
-struct Clock {
+struct Clock<'s> {
+    /// Ends the run once steps are measured.
+    stop: &'s AtomicBool,
+    /// The beginning of the run.
+    began: Instant,
     /// The beginning of the second step: the first has what is done once.
     second: Option<Instant>,
     last: Option<Instant>,
     steps: usize,
 }
 
-impl Observer for Clock {
+impl Observer for Clock<'_> {
     fn on_step(&mut self, _: &Frame) -> io::Result<()> {
         Ok(())
     }
@@ -43,11 +48,14 @@ impl Observer for Clock {
             self.second = Some(now);
         }
         self.last = Some(now);
+        if self.rate().is_some() && now.duration_since(self.began) > BUDGET {
+            self.stop.store(true, Ordering::Relaxed);
+        }
         false
     }
 }
 
-impl Clock {
+impl Clock<'_> {
     /// Steps that have been measured, and the time of one.
     fn rate(&self) -> Option<(usize, f64)> {
         let (second, last) = (self.second?, self.last?);
@@ -74,12 +82,12 @@ fn rehearse(model: &Model, system: &System, plan: &Plan) -> Option<Rehearsal> {
     }
     let stop = AtomicBool::new(false);
     let mut run = Run::new(model, system, plan, Wanted::default(), &stop).ok()?;
-    let mut clock = Clock::default();
+    let mut clock = Clock { stop: &stop, began: Instant::now(), second: None, last: None, steps: 0 };
     let (done, is_done) = mpsc::channel();
     let outcome = thread::scope(|scope| {
         scope.spawn(|| {
             let is_done = is_done;
-            if is_done.recv_timeout(BUDGET).is_err() {
+            if is_done.recv_timeout(PATIENCE).is_err() {
                 stop.store(true, Ordering::Relaxed);
             }
         });
@@ -138,8 +146,7 @@ pub fn alternative(model: &Model) -> Option<String> {
         return None;
     }
     let mut by_central = model.clone();
-    by_central.solution.scheme =
-        Arc::new(CentralDifference { rotation: RotationUpdate::default(), mass_scaling_step: None });
+    by_central.solution.scheme = stability_limited();
     by_central.solution.rotary_inertia = RotaryInertia::default();
     by_central.analysis.step_length = StepLength::StabilityLimited { fraction: model.stable_fraction() };
     let system = System::new(&by_central).ok()?;

@@ -81,7 +81,7 @@ impl EnergyGrowth {
         };
         Failure::EnergyGrowth {
             ratio,
-            scheme: model.solution.scheme.word().to_owned(),
+            scheme: (!checks_energy_growth(model)).then(|| model.solution.scheme.word().to_owned()),
             shortens: shortens.to_owned(),
             kept_until: self.kept_until,
         }

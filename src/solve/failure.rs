@@ -134,8 +134,8 @@ pub enum Failure {
     EnergyGrowth {
         /// The energy generated, as a multiple of the available energy.
         ratio: f64,
-        /// The word of the scheme.
-        scheme: String,
+        /// The word of the scheme; `None` for central differences.
+        scheme: Option<String>,
         /// The key of the deck that shortens the steps.
         shortens: String,
         /// The time of the last check with a kept balance of energy.
@@ -305,13 +305,13 @@ pub(super) fn gaps(model: &Model, system: &System, gaps: &[f64]) -> Vec<NamedRes
 }
 
 /// The message on a lost motion, with the remedy for the scheme.
-fn energy_growth(ratio: f64, scheme: &str, shortens: &str) -> String {
-    let long = "because their steps are too long for this motion. Give half of `time_step`, or an implicit scheme";
+fn energy_growth(ratio: f64, scheme: Option<&str>, shortens: &str) -> String {
     match scheme {
-        "central-difference" => {
-            format!("energy growth: central differences have generated {ratio:.1e} times the available energy, {long}")
-        }
-        _ => format!(
+        None => format!(
+            "energy growth: central differences have generated {ratio:.1e} times the available energy, because their steps are too long for this \
+             motion. Give half of `{shortens}`, or an implicit scheme"
+        ),
+        Some(scheme) => format!(
             "energy growth: `{scheme}` has generated {ratio:.1e} times the available energy, and the motion is lost. Give `scheme = \"bathe\"`, which \
              dissipates motions that steps do not resolve, and a tenth of `{shortens}`"
         ),
@@ -566,7 +566,7 @@ impl Failure {
                      {remedy}, or an implicit scheme"
                 )
             }
-            Failure::EnergyGrowth { ratio, scheme, shortens, .. } => energy_growth(*ratio, scheme, shortens),
+            Failure::EnergyGrowth { ratio, scheme, shortens, .. } => energy_growth(*ratio, scheme.as_deref(), shortens),
             Failure::RotationTooLarge { dt } => format!(
                 "in a step of {dt:.3e} a node rotates by more than 3 radians, which explicit schemes do not resolve. Give `time_step` = {}",
                 short(0.1 * dt)

@@ -700,6 +700,8 @@ pub mod shape {
 }
 
 pub mod gyroscopic {
+    /// Kinetic energy across the axis of the spin, as a part of that along and about it, below which it is rounding.
+    pub const ORBIT: f64 = 1e-10;
     /// An asymmetry below this part is rounding.
     pub const SYMMETRIC: f64 = 1e-9;
     /// Part of a mode's kinetic energy across the axis of a rotation below which its Coriolis forces change the frequency by no more than such a part.

@@ -55,3 +55,8 @@ pub static SCHEMES: &[&SchemeKind] = &[
     &central_difference::KIND,
     &runge_kutta::KIND,
 ];
+
+/// The scheme whose steps stability limits, with its defaults.
+pub fn stability_limited() -> Arc<dyn Scheme> {
+    Arc::new(CentralDifference { rotation: RotationUpdate::default(), mass_scaling_step: None })
+}

@@ -6,7 +6,7 @@
 use super::linearized::Linearized;
 use super::mode::EigenMode;
 use crate::system::{ConsistentMass, dependents};
-use crate::tolerances::gyroscopic::SYMMETRIC;
+use crate::tolerances::gyroscopic::{ORBIT, SYMMETRIC};
 use base::math::{Mat3, Mat6, Vec3, angular, linear, skew};
 use std::collections::BTreeMap;
 
@@ -91,24 +91,30 @@ impl Gyroscopic {
         if mode.root[1] == 0.0 || mode.quadrature.is_empty() {
             return None;
         }
-        let (mut sense, mut size) = (0.0, 0.0);
-        let mut orbit = |weight: f64, u: Vec3, ahead: Vec3| {
+        let (mut sense, mut size, mut along) = (0.0, 0.0, 0.0);
+        let mut orbit = |[weight, polar]: [f64; 2], u: Vec3, ahead: Vec3| {
             let across = |v: Vec3| v - e * e.dot(&v);
             sense += 2.0 * weight * e.dot(&u.cross(&ahead));
             size += weight * (across(u).norm_squared() + across(ahead).norm_squared());
+            along += polar * (e.dot(&u).powi(2) + e.dot(&ahead).powi(2));
         };
         for inertia in &at.system.inertias {
             let (u, ahead) = (&mode.shape[inertia.node], &mode.quadrature[inertia.node]);
-            orbit(inertia.mass, linear(u), linear(ahead));
+            orbit([inertia.mass; 2], linear(u), linear(ahead));
             if inertia.rotary {
                 let J = inertia.J(&at.state.nodes[inertia.node]);
-                orbit(0.5 * (J.trace() - e.dot(&(J * e))), angular(u), angular(ahead));
+                let polar = e.dot(&(J * e));
+                orbit([0.5 * (J.trace() - polar), polar], angular(u), angular(ahead));
             }
         }
         for (node, _, mass) in at.system.consistent.iter().flat_map(ConsistentMass::pairs) {
-            orbit(mass, linear(&mode.shape[node]), linear(&mode.quadrature[node]));
+            orbit([mass; 2], linear(&mode.shape[node]), linear(&mode.quadrature[node]));
         }
-        (size > 0.0).then(|| sense / size)
+        // Torsion and motion along the shaft have no orbits, and rounding across it has any.
+        if size <= ORBIT * along {
+            return (along > 0.0).then_some(0.0);
+        }
+        Some(sense / size)
     }
 
     /// Hands the entries of the matrix of rates to `visit`.

@@ -77,3 +77,23 @@ fn rotor_on_two_springs() {
         "{ended:?}"
     );
 }
+
+/// A disc in the middle of a shaft that is clamped against twist at one end: torsion at √(G I_t/(l J_p)) has no orbit, though rounding has.
+#[test]
+fn torsion_has_no_orbit() {
+    let (inertia, length, thickness) = (0.6, 0.5, 0.04);
+    let text = head("modes = 6\ndamped = true", thickness, thickness)
+        + &format!(
+            "[points]\na = [0.0, 0.0, 0.0]\nm = [{length:?}, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n[[beams]]\nname = \"shaft\"\n\
+             path = [\"a\", \"m\", \"b\"]\nelements = 2\norder = 2\nmaterial = \"steel\"\nsection = \"s\"\n\
+             orientation = [0.0, 1.0, 0.0]\nmass = \"none\"\n[[bodies]]\nname = \"disc\"\ncenter = [{length:?}, 0.0, 0.0]\nmass = 30.0\n\
+             inertia = [{inertia:?}, 0.3, 0.3]\nangular_velocity = [1.0, 0.0, 0.0]\n[[attachments]]\nbody = \"disc\"\nnodes = \"m\"\n\
+             [[supports]]\nat = \"a\"\nfix = [\"ux\", \"uy\", \"uz\", \"rx\"]\n[[supports]]\nat = \"b\"\nfix = [\"uy\", \"uz\"]\n"
+        );
+    // I_t = 0.1406 a⁴ of a square.
+    let torsion = (210e9 / 2.6 * 0.1406 * f64::powi(thickness, 4) / (length * inertia)).sqrt() / std::f64::consts::TAU;
+    let found = modes(&text);
+    let near = |mode: &&rdsolve::modes::EigenMode| (mode.frequency() - torsion).abs() < 1e-3 * torsion;
+    let mode = found.list.iter().find(near).unwrap_or_else(|| panic!("{torsion}: {:?}", found.list.len()));
+    assert_eq!(mode.whirl, Some(0.0));
+}
