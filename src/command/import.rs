@@ -103,8 +103,9 @@ pub fn import(args: &ImportArgs) -> Result<PathBuf, Exit> {
     show(&imported.verdicts.said(), &source);
     let refused = refused(&imported, args)?;
     let report = table(&imported.verdicts);
+    let unread = unread(&imported.verdicts);
     if args.check {
-        print(&format!("{report}{}\n", summary(args, &imported.verdicts)))?;
+        print(&format!("{report}{}\n{unread}", summary(args, &imported.verdicts)))?;
         return if refused { Err(Exit::DeckInvalid) } else { Ok(paths[0].clone()) };
     }
     if refused && !args.partial {
@@ -122,11 +123,15 @@ pub fn import(args: &ImportArgs) -> Result<PathBuf, Exit> {
     }
     let written: Vec<String> = written.iter().map(|path| path.display().to_string()).collect();
     if refused {
-        print(&format!("{}\nwritten, incomplete: {}\n", summary(args, &imported.verdicts), written.join(", ")))?;
+        print(&format!(
+            "{}\n{unread}written, incomplete: {}\n",
+            summary(args, &imported.verdicts),
+            written.join(", ")
+        ))?;
         return Err(Exit::DeckInvalid);
     }
     check(&paths)?;
-    print(&format!("{}\nwritten: {}\n", summary(args, &imported.verdicts), written.join(", ")))?;
+    print(&format!("{}\n{unread}written: {}\n", summary(args, &imported.verdicts), written.join(", ")))?;
     Ok(paths[0].clone())
 }
 
@@ -212,6 +217,12 @@ fn summary(args: &ImportArgs, verdicts: &Verdicts) -> String {
     let counts: Vec<String> =
         counts.filter(|(count, _)| *count > 0).map(|(count, word)| format!("{count} {word}")).collect();
     format!("{}: {}", args.file.display(), if counts.is_empty() { "no keyword".to_owned() } else { counts.join(", ") })
+}
+
+/// The line of harmless parameters that nothing has read, if there are any.
+fn unread(verdicts: &Verdicts) -> String {
+    let names: Vec<&str> = verdicts.unread.iter().map(String::as_str).collect();
+    if names.is_empty() { String::new() } else { format!("not read, without effect: {}\n", names.join(", ")) }
 }
 
 /// The report as a table of commas.

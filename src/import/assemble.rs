@@ -8,7 +8,8 @@ use crate::tied_nodes::TiedNodes;
 use crate::timeline::Timeline;
 use crate::{
     base_motion, bodies, contacts, distributing, equations, harmonics, joints, links, loads, material_cards, mesh_text,
-    nodal_axes, output, parts, property_cards, spread_loads, stage_text, supports, surface_ties, temperatures, ties,
+    nodal_axes, output, parts, pretension, property_cards, spread_loads, stage_text, supports, surface_ties,
+    temperatures, ties,
 };
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -39,6 +40,7 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
         groups: BTreeMap::new(),
         turned: HashMap::new(),
         body_of: HashMap::new(),
+        touching: HashMap::new(),
         rotating: BTreeSet::new(),
         parts_of_bodies: BTreeSet::new(),
         weighed: BTreeSet::new(),
@@ -49,6 +51,7 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
     };
     build.tied.axes = nodal_axes::of_nodes(&mut build);
     ties::merge(&mut build);
+    pretension::cut(&mut build);
     build.groups_of_file();
     build.deck.add(DeckTable::new("mesh", 0).text("file", mesh_file));
     stage_text::stages(&mut build);
@@ -60,6 +63,7 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
     links::links(&mut build);
     joints::connectors(&mut build);
     ties::joints(&mut build);
+    pretension::joints(&mut build);
     surface_ties::surface_ties(&mut build);
     contacts::contacts(&mut build);
     equations::equations(&mut build);

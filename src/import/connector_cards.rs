@@ -3,6 +3,7 @@
 use crate::file_content::{ConnectorBehavior, ConnectorDrive, ConnectorSection};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
+use crate::step_cards;
 use base::text_file::cards::name_in;
 
 /// `*CONNECTOR SECTION`.
@@ -95,6 +96,9 @@ pub fn load(im: &mut Importer, block: &KeywordBlock) {
 }
 
 fn drive(im: &mut Importer, block: &KeywordBlock, quantity: Option<&'static str>) {
+    if step_cards::is_new(block) && im.steps.list.len() > 1 {
+        return im.refuse(block.keyword.line, "what drives a connector acts in all steps: OP=NEW ends nothing");
+    }
     let amplitude = block.keyword.value("AMPLITUDE").map(str::to_owned);
     for data in &block.data {
         let Some(component) = im.id(data, 1).and_then(|component| (component as usize).checked_sub(1)) else {

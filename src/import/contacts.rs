@@ -28,19 +28,26 @@ pub fn contacts(build: &mut Build) {
             build.im.refuse(card.line, &why);
             continue;
         };
-        say_thickness(build, &card);
+        say_thickness(build, &card, (&touching, &touched));
         for piece in touched {
             pair(build, &card, &touching, (&piece, &law));
         }
     }
 }
 
-/// Tells where the other program leaves out the thickness of shells.
-fn say_thickness(build: &mut Build, card: &ContactCard) {
+/// Tells where the other program leaves out the thickness of the shells that touch: parts, or those of touching nodes.
+fn say_thickness(build: &mut Build, card: &ContactCard, (touching, touched): (&[String], &[PartPiece])) {
     let is_explicit =
         |step: &StepCard| matches!(step.procedure, Some((StepProcedure::Dynamic { is_explicit: true, .. }, _)));
-    let thickest = build.pieces.iter().filter(|piece| !piece.is_beam && !piece.is_bar && !piece.is_rigid);
-    let thickest = thickest.map(|piece| piece.size).fold(0.0, f64::max);
+    let of_set = |name: &String| build.groups.get(name).cloned().unwrap_or_default();
+    let single = |name: &String| name.strip_prefix("mesh.")?.parse().ok();
+    let nodes: BTreeSet<u64> = touching.iter().flat_map(|name| of_set(name).into_iter().chain(single(name))).collect();
+    let acts = |piece: &&PartPiece| {
+        let has_node = || piece.elements.iter().flat_map(|element| &element.2).any(|node| nodes.contains(node));
+        touching.contains(&piece.name) || touched.iter().any(|other| other.name == piece.name) || has_node()
+    };
+    let shells = build.pieces.iter().filter(|piece| !piece.is_beam && !piece.is_bar && !piece.is_rigid);
+    let thickest = shells.filter(acts).map(|piece| piece.size).fold(0.0, f64::max);
     let has_thickness = build.im.dialect == Some(Dialect::Calculix) || build.im.steps.list.iter().any(is_explicit);
     if card.is_thin && thickest > 0.0 && !has_thickness {
         let how = format!(

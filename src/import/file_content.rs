@@ -214,6 +214,19 @@ pub struct OpenCoupling {
     pub is_turned: bool,
 }
 
+/// A pre-tension section of a beam.
+#[derive(Debug, Clone)]
+pub struct PretensionCard {
+    /// Its line.
+    pub line: usize,
+    /// The beam.
+    pub element: NamedTarget,
+    /// The node whose first degree of freedom is that of the section.
+    pub node: NamedTarget,
+    /// The normal of the section; `None` along the beam.
+    pub normal: Option<Vec3>,
+}
+
 /// All constraints of a file.
 #[derive(Debug, Default)]
 pub struct ConstraintCards {
@@ -229,6 +242,8 @@ pub struct ConstraintCards {
     pub ties: Vec<TieCard>,
     /// Couplings that spread forces.
     pub distributing: Vec<DistributingCard>,
+    /// Pre-tension sections.
+    pub pretensions: Vec<PretensionCard>,
     /// Contacts.
     pub contacts: ContactCards,
     /// The coupling at hand.

@@ -72,6 +72,14 @@ impl FlatMesh {
         id
     }
 
+    /// Adds a node at the place of another, and returns its number.
+    pub fn copy_of(&mut self, id: u64) -> u64 {
+        let new = self.nodes.iter().map(|node| node.0).max().unwrap_or(0) + 1;
+        self.node_at.insert(new, self.nodes.len());
+        self.nodes.push((new, self.x(id)));
+        new
+    }
+
     /// Merges a node into another.
     pub fn merge(&mut self, id: u64, into: u64) {
         let (id, into) = (self.kept(id), self.kept(into));

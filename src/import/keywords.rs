@@ -4,8 +4,9 @@ use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::{
     amplitude_cards, base_motion, connector_cards, constraint_cards, contact_cards, harmonics, material_cards,
-    mesh_cards, mesh_makers, nodal_axes, property_cards, section_cards, step_cards, temperatures,
+    mesh_cards, mesh_makers, nodal_axes, pretension, property_cards, section_cards, step_cards, temperatures,
 };
+use base::text_file::cards::stands_for;
 use std::fmt::Write;
 
 /// The treatment of a keyword.
@@ -23,29 +24,36 @@ pub enum Treatment {
 pub struct KeywordRow {
     /// The keyword.
     pub word: &'static str,
-    /// The parameters that are read or have no meaning for the motion.
-    pub parameters: &'static str,
+    /// The parameters that do not act on the motion and that no reader asks for; `*`: all.
+    pub harmless: &'static str,
     /// What happens to it.
     pub treatment: Treatment,
     /// Its counterpart in the deck, or the reason of the refusal.
     pub about: &'static str,
 }
 
+impl KeywordRow {
+    /// True for a parameter that does not act on the motion.
+    pub fn has_harmless(&self, parameter: &str) -> bool {
+        self.harmless.split(' ').any(|harmless| harmless == "*" || stands_for(parameter, harmless))
+    }
+}
+
 const fn read(
     word: &'static str,
-    parameters: &'static str,
+    harmless: &'static str,
     read: fn(&mut Importer, &KeywordBlock),
     about: &'static str,
 ) -> KeywordRow {
-    KeywordRow { word, parameters, treatment: Treatment::Read(read), about }
+    KeywordRow { word, harmless, treatment: Treatment::Read(read), about }
 }
 
 const fn ignore(word: &'static str, about: &'static str) -> KeywordRow {
-    KeywordRow { word, parameters: "", treatment: Treatment::Ignore, about }
+    KeywordRow { word, harmless: "", treatment: Treatment::Ignore, about }
 }
 
 const fn refuse(word: &'static str, about: &'static str) -> KeywordRow {
-    KeywordRow { word, parameters: "", treatment: Treatment::Refuse, about }
+    KeywordRow { word, harmless: "", treatment: Treatment::Refuse, about }
 }
 
 const OUTPUT: &str = "output of the other program; the deck has its own";
@@ -62,223 +70,124 @@ const OPTIMIZE: &str = "rdsolve computes no sensitivities";
 
 /// All keywords.
 pub const KEYWORDS: &[KeywordRow] = &[
-    read("NODE", "NSET SYSTEM INPUT", mesh_cards::nodes, "nodes of the mesh"),
-    read("ELEMENT", "TYPE ELSET OFFSET INPUT", mesh_cards::elements, "elements of the mesh, by their type"),
-    read("NGEN", "NSET LINE SYSTEM", mesh_makers::between_nodes, "nodes of the mesh"),
-    read("NFILL", "NSET BIAS TWOSTEP SINGULAR", mesh_makers::between_sets, "nodes of the mesh"),
-    read("NCOPY", "OLDSET NEWSET CHANGENUMBER SHIFT MULTIPLE", mesh_makers::copied_nodes, "nodes of the mesh"),
-    read("ELGEN", "ELSET", mesh_makers::rows_of_elements, "elements of the mesh"),
-    read(
-        "ELCOPY",
-        "OLDSET NEWSET ELEMENTSHIFT SHIFTNODES REFLECT",
-        mesh_makers::copied_elements,
-        "elements of the mesh",
-    ),
-    read("NSET", "NSET ELSET GENERATE INSTANCE INTERNAL UNSORTED INPUT", mesh_cards::node_sets, "a set of nodes"),
-    read("ELSET", "ELSET GENERATE INSTANCE INTERNAL UNSORTED INPUT", mesh_cards::element_sets, "a set of elements"),
-    read("SURFACE", "NAME TYPE INTERNAL", mesh_cards::surfaces, "where loads and couplings act"),
+    read("NODE", "", mesh_cards::nodes, "nodes of the mesh"),
+    read("ELEMENT", "", mesh_cards::elements, "elements of the mesh, by their type"),
+    read("NGEN", "", mesh_makers::between_nodes, "nodes of the mesh"),
+    read("NFILL", "", mesh_makers::between_sets, "nodes of the mesh"),
+    read("NCOPY", "", mesh_makers::copied_nodes, "nodes of the mesh"),
+    read("ELGEN", "", mesh_makers::rows_of_elements, "elements of the mesh"),
+    read("ELCOPY", "", mesh_makers::copied_elements, "elements of the mesh"),
+    read("NSET", "INTERNAL UNSORTED", mesh_cards::node_sets, "a set of nodes"),
+    read("ELSET", "INTERNAL UNSORTED", mesh_cards::element_sets, "a set of elements"),
+    read("SURFACE", "INTERNAL", mesh_cards::surfaces, "where loads and couplings act"),
     read("PART", "NAME", mesh_cards::part, "nodes and elements of each of its instances"),
     read("END PART", "", mesh_cards::outside, "nothing of its own"),
     read("ASSEMBLY", "NAME", mesh_cards::outside, "nothing of its own"),
     read("END ASSEMBLY", "", mesh_cards::outside, "nothing of its own"),
-    read("INSTANCE", "NAME PART LIBRARY", mesh_cards::instance, "nodes and elements of its part where it stands"),
+    read("INSTANCE", "", mesh_cards::instance, "nodes and elements of its part where it stands"),
     read("END INSTANCE", "", mesh_cards::outside, "nothing of its own"),
-    read(
-        "BEAM SECTION",
-        "ELSET MATERIAL SECTION ORIENTATION OFFSET1 OFFSET2 TEMPERATURE POISSON ROTARYINERTIA LUMPED",
-        section_cards::beam,
-        "[[beams]], [sections]",
-    ),
-    read(
-        "BEAM GENERAL SECTION",
-        "ELSET MATERIAL SECTION ORIENTATION OFFSET1 OFFSET2 DENSITY POISSON ROTARYINERTIA LUMPED ZERO TEMPERATURE",
-        section_cards::general_beam,
-        "[[beams]], [sections], [materials]",
-    ),
-    read(
-        "SHELL SECTION",
-        "ELSET MATERIAL OFFSET ORIENTATION COMPOSITE NODALTHICKNESS SHELLTHICKNESS POISSON SECTIONINTEGRATION THICKNESSMODULUS CONTROLS TEMPERATURE",
-        section_cards::shell,
-        "[[shells]]",
-    ),
+    read("BEAM SECTION", "LUMPED", section_cards::beam, "[[beams]], [sections]"),
+    read("BEAM GENERAL SECTION", "LUMPED ZERO", section_cards::general_beam, "[[beams]], [sections], [materials]"),
+    read("SHELL SECTION", "SECTIONINTEGRATION THICKNESSMODULUS CONTROLS", section_cards::shell, "[[shells]]"),
     read(
         "SHELL GENERAL SECTION",
-        "ELSET MATERIAL OFFSET ORIENTATION COMPOSITE NODALTHICKNESS SHELLTHICKNESS POISSON THICKNESSMODULUS CONTROLS",
+        "THICKNESSMODULUS CONTROLS",
         section_cards::general_shell,
         "[[shells]], of one material",
     ),
-    read("SOLID SECTION", "ELSET MATERIAL ORIENTATION CONTROLS", section_cards::solid, "[[bars]] area, of trusses"),
+    read("SOLID SECTION", "CONTROLS", section_cards::solid, "[[bars]] area, of trusses"),
     read(
         "NODAL THICKNESS",
         "",
         section_cards::nodal_thickness,
         "[[shells]] thickness, where it is the same in each element",
     ),
-    read(
-        "ORIENTATION",
-        "NAME SYSTEM DEFINITION LOCALDIRECTIONS",
-        property_cards::orientation,
-        "axes of joints, bushings and shells",
-    ),
-    read("TRANSFORM", "NSET TYPE", nodal_axes::transform, "[[supports]] axes, turned loads and equations"),
-    read("MATERIAL", "NAME", material_cards::material, "[materials]"),
-    read("ELASTIC", "TYPE MODULI", material_cards::elastic, "[materials] youngs_modulus, poisson_ratio"),
-    read("PLASTIC", "HARDENING DATATYPE", material_cards::plastic, "[materials] hardening, kinematic_share"),
-    read("RATE DEPENDENT", "TYPE", material_cards::rate_dependent, "[materials] viscosity"),
+    read("ORIENTATION", "", property_cards::orientation, "axes of joints, bushings and shells"),
+    read("TRANSFORM", "", nodal_axes::transform, "[[supports]] axes, turned loads and equations"),
+    read("MATERIAL", "", material_cards::material, "[materials]"),
+    read("ELASTIC", "MODULI", material_cards::elastic, "[materials] youngs_modulus, poisson_ratio"),
+    read("PLASTIC", "", material_cards::plastic, "[materials] hardening, kinematic_share"),
+    read("RATE DEPENDENT", "", material_cards::rate_dependent, "[materials] viscosity"),
     read("DENSITY", "", material_cards::density, "[materials] density"),
-    read("DAMPING", "ALPHA BETA STRUCTURAL COMPOSITE", material_cards::damping, "damping of parts"),
-    read("EXPANSION", "TYPE ZERO", material_cards::expansion, "[materials] expansion, where a temperature changes"),
-    read("MASS", "ELSET ALPHA", property_cards::mass, "[[masses]]"),
-    read("ROTARY INERTIA", "ELSET ALPHA ORIENTATION", property_cards::inertia, "[[masses]] inertia, or that of a body"),
-    read("SPRING", "ELSET NONLINEAR ORIENTATION", property_cards::spring, "[[links]]"),
-    read("DASHPOT", "ELSET ORIENTATION", property_cards::dashpot, "[[links]] damping"),
-    read("JOINT", "ELSET ORIENTATION", property_cards::joint, "[[links]] bushing"),
-    read("GAP", "ELSET", property_cards::gap, "[[links]] with a gap"),
-    read(
-        "RIGID BODY",
-        "REFNODE ROTNODE NSET TIENSET PINNSET ELSET",
-        constraint_cards::rigid_body,
-        "[[bodies]], [[attachments]]",
-    ),
-    read(
-        "TIE",
-        "NAME ADJUST POSITIONTOLERANCE TYPE NOROTATION NOTHICKNESS CYCLICSYMMETRY MULTISTAGE FLUIDSTRUCTURE",
-        constraint_cards::tie,
-        "[[ties]]",
-    ),
-    read(
-        "COUPLING",
-        "CONSTRAINTNAME REFNODE SURFACE ORIENTATION",
-        constraint_cards::coupling,
-        "a body at the reference node",
-    ),
+    read("DAMPING", "", material_cards::damping, "damping of parts"),
+    read("EXPANSION", "ZERO", material_cards::expansion, "[materials] expansion, where a temperature changes"),
+    read("MASS", "", property_cards::mass, "[[masses]]"),
+    read("ROTARY INERTIA", "", property_cards::inertia, "[[masses]] inertia, or that of a body"),
+    read("SPRING", "", property_cards::spring, "[[links]]"),
+    read("DASHPOT", "", property_cards::dashpot, "[[links]] damping"),
+    read("JOINT", "", property_cards::joint, "[[links]] bushing"),
+    read("GAP", "", property_cards::gap, "[[links]] with a gap"),
+    read("RIGID BODY", "", constraint_cards::rigid_body, "[[bodies]], [[attachments]]"),
+    read("TIE", "NOTHICKNESS", constraint_cards::tie, "[[ties]]"),
+    read("COUPLING", "", constraint_cards::coupling, "a body at the reference node"),
     read("KINEMATIC", "", constraint_cards::kinematic, "[[attachments]] dofs"),
-    read("DISTRIBUTING", "WEIGHTINGMETHOD COUPLING", constraint_cards::distributing, "[[loads]] at its nodes"),
-    read("DISTRIBUTING COUPLING", "ELSET", constraint_cards::distributing_coupling, "[[loads]] at its nodes"),
-    read("KINEMATIC COUPLING", "REFNODE", constraint_cards::kinematic_coupling, "a body, [[attachments]] dofs"),
+    read("DISTRIBUTING", "", constraint_cards::distributing, "[[loads]] at its nodes"),
+    read("DISTRIBUTING COUPLING", "", constraint_cards::distributing_coupling, "[[loads]] at its nodes"),
+    read("KINEMATIC COUPLING", "", constraint_cards::kinematic_coupling, "a body, [[attachments]] dofs"),
     read("MPC", "", constraint_cards::points, "nodes that are one, [[joints]], [[equations]] or a body"),
+    read("PRE-TENSION SECTION", "", pretension::section, "[[joints]] effort or motion in a cut beam"),
     read("EQUATION", "", constraint_cards::equations, "nodes that are one, [[joints]], [[supports]] or [[equations]]"),
     read(
         "CONTACT PAIR",
-        "INTERACTION TYPE SMALLSLIDING ADJUST TIED NOTHICKNESS SUPPLEMENTARYCONSTRAINTS TRACKING EXTENSIONZONE HCRIT SMOOTH WEIGHT CPSET MECHANICALCONSTRAINT",
+        "SUPPLEMENTARYCONSTRAINTS TRACKING EXTENSIONZONE HCRIT MECHANICALCONSTRAINT",
         contact_cards::pair,
         "[[contacts]]",
     ),
-    read("SURFACE INTERACTION", "NAME", contact_cards::interaction, "what acts in [[contacts]]"),
+    read("SURFACE INTERACTION", "", contact_cards::interaction, "what acts in [[contacts]]"),
     read(
         "SURFACE BEHAVIOR",
-        "PRESSURE-OVERCLOSURE AUGMENTEDLAGRANGE PENALTY DIRECT NOSEPARATION",
+        "AUGMENTEDLAGRANGE PENALTY DIRECT",
         contact_cards::behavior,
         "[[contacts]] stiffness, which rdsolve chooses",
     ),
-    read(
-        "FRICTION",
-        "SLIPTOLERANCE ELASTICSLIP LAGRANGE ROUGH TAUMAX EXPONENTIALDECAY",
-        contact_cards::friction,
-        "[[contacts]] friction",
-    ),
-    read("CONNECTOR SECTION", "ELSET BEHAVIOR", connector_cards::section, "[[joints]] or [[links]]"),
-    read("CONNECTOR BEHAVIOR", "NAME", connector_cards::behavior, "what acts in joints and bushings"),
-    read("CONNECTOR ELASTICITY", "COMPONENT", connector_cards::elasticity, "stiffness of joints and bushings"),
-    read("CONNECTOR DAMPING", "COMPONENT", connector_cards::damping, "damping of joints and bushings"),
-    read("CONNECTOR STOP", "COMPONENT", connector_cards::stop, "[[joints]] limits"),
-    read("CONNECTOR MOTION", "TYPE AMPLITUDE OP", connector_cards::motion, "[[joints]] motion"),
-    read("CONNECTOR LOAD", "AMPLITUDE OP", connector_cards::load, "[[joints]] effort"),
-    read(
-        "AMPLITUDE",
-        "NAME DEFINITION TIME SHIFTX SHIFTY TIMEDELAY FIXEDINTERVAL VALUE",
-        amplitude_cards::amplitude,
-        "[amplitudes]",
-    ),
-    read("BOUNDARY", "OP AMPLITUDE FIXED TYPE LOADCASE REAL IMAGINARY", step_cards::boundary, "[[supports]]"),
-    read("INITIAL CONDITIONS", "TYPE", step_cards::initial_conditions, "[[initial]]"),
-    read(
-        "STEP",
-        "NAME NLGEOM INC PERTURBATION AMPLITUDE UNSYMM EXTRAPOLATION CONVERTSDI SOLVER DIRECT",
-        step_cards::step,
-        "[analysis] or [[stages]]",
-    ),
+    read("FRICTION", "SLIPTOLERANCE ELASTICSLIP LAGRANGE", contact_cards::friction, "[[contacts]] friction"),
+    read("CONNECTOR SECTION", "", connector_cards::section, "[[joints]] or [[links]]"),
+    read("CONNECTOR BEHAVIOR", "", connector_cards::behavior, "what acts in joints and bushings"),
+    read("CONNECTOR ELASTICITY", "", connector_cards::elasticity, "stiffness of joints and bushings"),
+    read("CONNECTOR DAMPING", "", connector_cards::damping, "damping of joints and bushings"),
+    read("CONNECTOR STOP", "", connector_cards::stop, "[[joints]] limits"),
+    read("CONNECTOR MOTION", "", connector_cards::motion, "[[joints]] motion"),
+    read("CONNECTOR LOAD", "", connector_cards::load, "[[joints]] effort"),
+    read("AMPLITUDE", "", amplitude_cards::amplitude, "[amplitudes]"),
+    read("BOUNDARY", "REAL", step_cards::boundary, "[[supports]]"),
+    read("INITIAL CONDITIONS", "", step_cards::initial_conditions, "[[initial]]"),
+    read("STEP", "INC UNSYMM EXTRAPOLATION CONVERTSDI SOLVER DIRECT", step_cards::step, "[analysis] or [[stages]]"),
     read("END STEP", "", step_cards::end_step, "nothing of its own"),
-    read("STATIC", "DIRECT STABILIZE ALLSDTOL CONTINUE RIKS SOLVER ADAPTIVE", step_cards::statics, "a static analysis"),
+    read("STATIC", "DIRECT ALLSDTOL CONTINUE SOLVER ADAPTIVE", step_cards::statics, "a static analysis"),
     read(
         "DYNAMIC",
-        "DIRECT ALPHA EXPLICIT APPLICATION HAFTOL NOHAF INITIAL SOLVER ELEMENTBYELEMENT FIXEDTIMEINCREMENTATION",
+        "HAFTOL NOHAF INITIAL SOLVER ELEMENTBYELEMENT FIXEDTIMEINCREMENTATION",
         step_cards::dynamic,
         "a dynamic analysis",
     ),
-    read("MODAL DYNAMIC", "DIRECT SOLVER CONTINUE DELTMX", step_cards::modal_dynamic, "a dynamic analysis"),
+    read("MODAL DYNAMIC", "DIRECT SOLVER DELTMX", step_cards::modal_dynamic, "a dynamic analysis"),
     read(
         "FREQUENCY",
-        "EIGENSOLVER NORMALIZATION SOLVER STORAGE NUMBERINTERVAL ACOUSTICCOUPLING RESIDUALMODES GLOBAL NSET",
+        "EIGENSOLVER NORMALIZATION SOLVER STORAGE NUMBERINTERVAL ACOUSTICCOUPLING GLOBAL NSET",
         step_cards::frequency,
         "natural modes",
     ),
-    read("COMPLEX FREQUENCY", "CORIOLIS FRICTIONDAMPING", step_cards::complex_frequency, "complex modes"),
-    read(
-        "STEADY STATE DYNAMICS",
-        "DIRECT HARMONIC SOLVER INTERVAL FREQUENCYSCALE FRICTIONDAMPING",
-        harmonics::steady_state,
-        "a frequency response",
-    ),
-    read(
-        "MODAL DAMPING",
-        "MODAL RAYLEIGH DEFINITION STRUCTURAL VISCOUS",
-        harmonics::modal_damping,
-        "damping_ratio of the response, or [damping]",
-    ),
+    read("COMPLEX FREQUENCY", "", step_cards::complex_frequency, "complex modes"),
+    read("STEADY STATE DYNAMICS", "SOLVER", harmonics::steady_state, "a frequency response"),
+    read("MODAL DAMPING", "", harmonics::modal_damping, "damping_ratio of the response, or [damping]"),
     read("BUCKLE", "EIGENSOLVER SOLVER", step_cards::buckle, "buckling factors"),
-    read(
-        "BASE MOTION",
-        "AMPLITUDE BASENAME DOF SCALE TYPE LOADCASE REAL IMAGINARY",
-        base_motion::base_motion,
-        "[environment] base_acceleration",
-    ),
-    read("CLOAD", "OP AMPLITUDE FOLLOWER LOADCASE REAL IMAGINARY", step_cards::forces, "[[loads]] force, moment"),
+    read("BASE MOTION", "REAL", base_motion::base_motion, "[environment] base_acceleration"),
+    read("CLOAD", "REAL", step_cards::forces, "[[loads]] force, moment"),
     read(
         "TEMPERATURE",
-        "OP AMPLITUDE",
+        "",
         temperatures::temperatures,
         "[[loads]] temperature, nodal_temperature, temperature_gradient",
     ),
-    read(
-        "DLOAD",
-        "OP AMPLITUDE FOLLOWER CONSTANTRESULTANT LOADCASE REAL IMAGINARY",
-        step_cards::element_loads,
-        "[[loads]] by length or area, or gravity",
-    ),
-    read(
-        "DSLOAD",
-        "OP AMPLITUDE FOLLOWER CONSTANTRESULTANT LOADCASE REAL IMAGINARY",
-        step_cards::surface_loads,
-        "[[loads]] pressure, force_per_area, or forces along edges",
-    ),
-    read("NODE PRINT", "NSET FREQUENCY TOTALS GLOBAL TIMEPOINTS OUTPUT SUMMARY", step_cards::node_output, "[output]"),
-    read(
-        "NODE FILE",
-        "NSET FREQUENCY OUTPUT GLOBAL TIMEPOINTS LASTITERATIONS CONTACTELEMENTS",
-        step_cards::node_output,
-        "[output]",
-    ),
-    read("NODE OUTPUT", "NSET VARIABLE EXTERIOR", step_cards::node_output, "[output]"),
-    read(
-        "EL PRINT",
-        "ELSET FREQUENCY TOTALS GLOBAL TIMEPOINTS POSITION SUMMARY",
-        step_cards::element_output,
-        "[output] sections",
-    ),
-    read(
-        "EL FILE",
-        "ELSET FREQUENCY OUTPUT GLOBAL TIMEPOINTS SECTIONFORCES POSITION",
-        step_cards::element_output,
-        "[output] sections",
-    ),
-    read("ELEMENT OUTPUT", "ELSET VARIABLE DIRECTIONS POSITION", step_cards::element_output, "[output] sections"),
-    read(
-        "OUTPUT",
-        "FIELD HISTORY VARIABLE FREQUENCY TIMEINTERVAL NUMBERINTERVAL TIMEPOINTS NAME OP TIMEMARKS",
-        step_cards::output,
-        "[output] fields",
-    ),
+    read("DLOAD", "REAL", step_cards::element_loads, "[[loads]] by length or area, or gravity"),
+    read("DSLOAD", "REAL", step_cards::surface_loads, "[[loads]] pressure, force_per_area, or forces along edges"),
+    read("NODE PRINT", "*", step_cards::node_output, "[output]"),
+    read("NODE FILE", "*", step_cards::node_output, "[output]"),
+    read("NODE OUTPUT", "*", step_cards::node_output, "[output]"),
+    read("EL PRINT", "*", step_cards::element_output, "[output] sections"),
+    read("EL FILE", "*", step_cards::element_output, "[output] sections"),
+    read("ELEMENT OUTPUT", "*", step_cards::element_output, "[output] sections"),
+    read("OUTPUT", "*", step_cards::output, "[output] fields"),
     read("HEADING", "", step_cards::heading, "title"),
     read("NO COMPRESSION", "", material_cards::no_compression, "[[bars]] tension_only"),
     ignore("PREPRINT", SOLVER),
@@ -325,10 +234,6 @@ pub const KEYWORDS: &[KeywordRow] = &[
     refuse("CHANGE SURFACE BEHAVIOR", CONTACT),
     refuse("CLEARANCE", CONTACT),
     refuse("MODEL CHANGE", "elements that come or go are not translated; use `stages` of links, joints and supports"),
-    refuse(
-        "PRE-TENSION SECTION",
-        "pre-tension by a section is not translated; use `pretension` of [[links]] or `free_length` of [[bars]]",
-    ),
     refuse("CREEP", LAW),
     refuse("VISCO", "steps with creep are not translated"),
     refuse("HYPERELASTIC", LAW),

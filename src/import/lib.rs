@@ -44,6 +44,7 @@ mod nodal_numbers;
 mod output;
 mod part_piece;
 mod parts;
+mod pretension;
 mod property_cards;
 mod robot;
 mod robot_deck;
@@ -61,6 +62,7 @@ mod tied_nodes;
 mod ties;
 mod timeline;
 mod units_hint;
+mod unread;
 mod urdf;
 mod verdicts;
 
@@ -120,6 +122,9 @@ pub fn import(text: &mut Text, options: &ImportOptions) -> Imported {
         {
             im.verdicts.add(im.text, KeywordVerdict::Translated, line, None, row.about.to_owned());
         }
+        if let Some(row) = row.filter(|row| matches!(row.treatment, Treatment::Read(_))) {
+            unread::report(&mut im, block, row);
+        }
     }
     im.verdicts.rows.sort_by_key(|row| row.line);
     let head = head(&im, options);
@@ -137,11 +142,9 @@ fn read(im: &mut Importer, block: &KeywordBlock, row: Option<&'static keywords::
         Treatment::Ignore => im.ignore(line, row.about),
         Treatment::Refuse => im.refuse(line, row.about),
         Treatment::Read(read) => {
-            let known: Vec<&str> = row.parameters.split(' ').collect();
-            if let Some(stranger) = block.keyword.stranger(&known) {
-                im.refuse(line, &format!("{stranger} of *{} is not read", block.keyword.name));
-            }
+            block.keyword.forget_reads();
             read(im, block);
+            unread::judge(im, block, row);
         }
     }
 }

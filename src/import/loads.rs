@@ -5,6 +5,7 @@ use crate::deck_text::DeckTable;
 use crate::distributing;
 use crate::file_content::{ForceLine, StepProcedure};
 use crate::importer::Importer;
+use crate::pretension;
 use crate::scopes::NamedTarget;
 use crate::timeline::{GivenValue, InStep, TimeLaw, histories};
 use base::math::Mat3;
@@ -131,7 +132,9 @@ fn by_node(laws: Vec<(ForceKey, TimeLaw, Vec<usize>)>, axes: &HashMap<u64, Mat3>
 
 /// Nodes and degrees of freedom of a line; those of a node that turns a body are moments on the body.
 fn given(build: &mut Build, line: &ForceLine) -> Vec<(ForceKey, GivenValue)> {
-    let nodes = build.nodes(&line.target);
+    let mut nodes = build.nodes(&line.target);
+    let of_sections = pretension::nodes(build);
+    nodes.retain(|node| !of_sections.contains(node));
     let mut given = Vec::new();
     for node in nodes {
         let (node, shift) = match build.turned.get(&node) {
@@ -188,7 +191,11 @@ pub fn in_time(table: DeckTable, law: Option<&TimeLaw>) -> DeckTable {
 pub fn velocities(build: &mut Build) {
     let mut of_node: BTreeMap<u64, ([f64; 6], BTreeSet<usize>)> = BTreeMap::new();
     let all = build.im.steps.velocities.clone();
+    let still = |line: &usize| all.iter().filter(|of| of.0 == *line).all(|of| of.3 == 0.0);
     for (line, target, dof, value) in &all {
+        if still(line) {
+            build.im.ignore(*line, "all begins at rest");
+        }
         for node in build.nodes(target) {
             if build.mesh.used.contains(&node) {
                 let entry = of_node.entry(node).or_default();
@@ -204,7 +211,7 @@ pub fn velocities(build: &mut Build) {
         group.2.extend(lines);
     }
     let targets: Vec<NamedTarget> = all.into_iter().map(|(_, target, _, _)| target).collect();
-    for (six, nodes, lines) in groups.into_values() {
+    for (six, nodes, lines) in groups.into_values().filter(|(six, ..)| *six != [0.0; 6]) {
         let of_lines: Vec<NamedTarget> =
             targets.iter().filter(|target| lines.contains(&target.line)).cloned().collect();
         let names = build.names(&nodes, &of_lines, "moving");

@@ -115,6 +115,9 @@ fn read_beam(im: &mut Importer, block: &KeywordBlock, is_general: bool) {
         im.change(line, "the shear areas are the area; Abaqus lowers them for slender elements");
     }
     match &word[..] {
+        "BOX" if sizes[2] != sizes[4] || sizes[3] != sizes[5] => {
+            im.change(line, "the shear centre of a box of unlike walls is its centroid");
+        }
         "ARBITRARY" => im.change(line, "the shear centre is the centroid"),
         "TRAPEZOID" => {
             im.change(line, "the torsion constant is A⁴/(40 I), with I about the centroid; the shear centre is there")
@@ -212,7 +215,7 @@ fn shape(word: &str, sizes: &[f64], dialect: Option<Dialect>) -> Result<KeysAndC
         "BOX" => {
             needs(6)?;
             if sizes[2] != sizes[4] || sizes[3] != sizes[5] {
-                return Err("opposite walls of a box are alike in rdsolve".to_owned());
+                return thin_sections::box_of_unlike_walls(sizes);
             }
             let walls = Numbers(vec![sizes[2], sizes[3]]);
             vec![("shape", Word("box")), ("width", at(0)), ("height", at(1)), ("thickness", walls)]

@@ -105,6 +105,9 @@ fn one(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history): (&
     if line.kind == "CENTRIF" && !line.is_surface {
         return rotation(build, line, law, (lines, history));
     }
+    if line.kind == "CORIO" && build.timeline.stages.iter().all(|stage| !stage.is_dynamic && stage.duration > 0.0) {
+        return build.im.ignore(line.line, "nothing moves in a static step, and no Coriolis force acts");
+    }
     if line.is_on_edges() {
         return edge_loads::edges(build, line, law, lines);
     }
@@ -154,9 +157,8 @@ fn one(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history): (&
 /// Why a kind of load is not translated.
 fn reason(kind: &str) -> String {
     match kind {
-        "ROTA" | "CORIO" => {
-            format!("loads of kind {kind} act in a rotating frame; give the parts an angular velocity instead")
-        }
+        "CORIO" => "rdsolve has no rotating frame: compute the motion with the parts turning".to_owned(),
+        "ROTA" => "rdsolve has no load by an angular acceleration: compute the motion of the parts".to_owned(),
         "CENT" => "CENT is the density times the square of a speed: give CENTRIF, without the density".to_owned(),
         "NEWTON" => "bodies do not attract each other in rdsolve".to_owned(),
         _ => format!("loads of kind {kind} are not translated"),

@@ -107,6 +107,13 @@ pub fn modal_dynamic(im: &mut Importer, block: &KeywordBlock) {
     let [first, second] = times(im, block);
     let Some(duration) = second else { return im.refuse(block.keyword.line, "*MODAL DYNAMIC needs the duration") };
     im.change(block.keyword.line, "all motions take part, not only the modes computed before");
+    let moves = |step: &StepCard| matches!(step.procedure, Some((StepProcedure::Dynamic { .. }, _)));
+    if !block.keyword.has("CONTINUE") && im.steps.list.iter().any(moves) {
+        im.change(
+            block.keyword.line,
+            "the motion of the step before goes on; without CONTINUE the other program begins at rest",
+        );
+    }
     set(
         im,
         block.keyword.line,
@@ -145,7 +152,7 @@ pub fn buckle(im: &mut Importer, block: &KeywordBlock) {
 }
 
 /// True where entries of earlier steps end; those of one step add up.
-fn is_new(block: &KeywordBlock) -> bool {
+pub fn is_new(block: &KeywordBlock) -> bool {
     block.keyword.value("OP").is_some_and(|op| op.eq_ignore_ascii_case("NEW"))
 }
 
@@ -182,10 +189,10 @@ pub fn boundary(im: &mut Importer, block: &KeywordBlock) {
     }
     let is_imaginary = is_imaginary(keyword);
     let amplitude = keyword.value("AMPLITUDE").map(str::to_owned);
+    let is_fixed = keyword.has("FIXED");
     for data in block.data.iter().filter(|data| data.filled() > 0) {
         let Some((degrees, value)) = directions(im, data) else { continue };
         let (target, amplitude) = (im.target(&data.words[0]), amplitude.clone());
-        let is_fixed = keyword.has("FIXED");
         let support =
             SupportLine { line: data.line, target, degrees, value, amplitude, history, is_imaginary, is_fixed };
         im.steps.at_hand().supports.push(support);
@@ -228,6 +235,7 @@ pub fn forces(im: &mut Importer, block: &KeywordBlock) {
         im.steps.at_hand().new_forces = true;
     }
     let amplitude = keyword.value("AMPLITUDE").map(str::to_owned);
+    let is_follower = keyword.has("FOLLOWER");
     for data in block.data.iter().filter(|data| data.filled() > 0) {
         let Some(degree) = im.id(data, 1) else { continue };
         if !(1..=6).contains(&degree) {
@@ -236,7 +244,6 @@ pub fn forces(im: &mut Importer, block: &KeywordBlock) {
         }
         let value = im.number_at(data, 2).unwrap_or(0.0);
         let (target, amplitude) = (im.target(&data.words[0]), amplitude.clone());
-        let is_follower = keyword.has("FOLLOWER");
         let degree = degree as usize - 1;
         let force = ForceLine { line: data.line, target, degree, value, amplitude, is_follower, is_imaginary };
         im.steps.at_hand().forces.push(force);

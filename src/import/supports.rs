@@ -4,6 +4,7 @@ use crate::bodies::DEGREES;
 use crate::build::Build;
 use crate::deck_text::{DeckTable, inline, list, number, quoted, vector};
 use crate::file_content::SupportLine;
+use crate::pretension;
 use crate::scopes::NamedTarget;
 use crate::timeline::{GivenValue, InStep, histories};
 use base::math::Mat3;
@@ -81,7 +82,9 @@ pub fn supports(build: &mut Build) {
 
 /// Nodes and degrees of freedom of a line; those of a node that turns a body are rotations of the body.
 fn given(build: &mut Build, line: &SupportLine) -> Vec<GivenFreedom> {
-    let nodes = build.nodes(&line.target);
+    let mut nodes = build.nodes(&line.target);
+    let of_sections = pretension::nodes(build);
+    nodes.retain(|node| !of_sections.contains(node));
     let mut given = Vec::new();
     let mut unused = false;
     for node in nodes {
@@ -215,7 +218,7 @@ fn write(build: &mut Build, group: Alike, targets: &[NamedTarget]) {
     }
     let of_lines: Vec<NamedTarget> =
         targets.iter().filter(|target| group.lines.contains(&target.line)).cloned().collect();
-    let names = build.names(&group.nodes, &of_lines, "held");
+    let names = names(build, &group, &of_lines);
     for stages in seen {
         let mut table = DeckTable::new("supports", 0).with_lines(group.lines.iter().copied()).names("at", &names);
         let here = |dof: &usize| group.held[*dof].as_ref().filter(|(_, at)| *at == stages).map(|(held, _)| held);
@@ -248,6 +251,18 @@ fn write(build: &mut Build, group: Alike, targets: &[NamedTarget]) {
         }
         build.deck.add(table);
     }
+}
+
+/// Names for the nodes of a group. A body in contact whose rotations are held stands for its reference node: supports of bodies need no
+/// multipliers, beside which penalties of contact are not the only stiffness.
+fn names(build: &mut Build, group: &Alike, targets: &[NamedTarget]) -> Vec<String> {
+    let turns = (3..6).any(|dof| group.held[dof] != Some((HeldAs::Fixed, None)));
+    let body = |node: &u64| build.touching.get(node).filter(|_| !turns).cloned();
+    let bodies: BTreeSet<String> = group.nodes.iter().filter_map(body).collect();
+    let nodes: BTreeSet<u64> = group.nodes.iter().copied().filter(|node| body(node).is_none()).collect();
+    let mut names: Vec<String> = bodies.into_iter().collect();
+    names.extend(build.names(&nodes, targets, "held"));
+    names
 }
 
 /// True where the axes make no difference: all translations or none are held, and all rotations or none.

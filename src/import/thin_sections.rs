@@ -69,6 +69,41 @@ pub fn trapezoid(sizes: &[f64]) -> Result<KeysAndCentroid, String> {
     Ok((integrals.keys(), [0.0, height * (base + 2.0 * top) / (3.0 * sum) - node]))
 }
 
+/// A box by its width and height and the thickness of its walls towards +1, +2, −1 and −2, where the node is in the middle. Bredt's formula
+/// gives the torsion constant; walls along a force take its shear.
+pub fn box_of_unlike_walls(sizes: &[f64]) -> Result<KeysAndCentroid, String> {
+    use SectionValue::{Number, Numbers, Word};
+    let [a, b, right, top, left, bottom, ..] = *sizes else { return Err("a box has six sizes".to_owned()) };
+    let inner = [a - left - right, b - bottom - top];
+    if [right, top, left, bottom].iter().chain(&inner).any(|size| *size <= 0.0) {
+        return Err("the walls of a box have a thickness, and leave a hollow".to_owned());
+    }
+    let hollow = [0.5 * (left - right), 0.5 * (bottom - top)];
+    let hole = inner[0] * inner[1];
+    let area = a * b - hole;
+    let center = hollow.map(|x| -hole * x / area);
+    // Parallel axes: the solid about the middle, less the hollow, moved to the centroid.
+    let second = |i: usize, sides: [f64; 2]| {
+        let solid = sides[1 - i] * sides[i].powi(3) / 12.0;
+        let less = inner[1 - i] * inner[i].powi(3) / 12.0 + hole * hollow[i] * hollow[i];
+        solid - less - area * center[i] * center[i]
+    };
+    let product = -hole * hollow[0] * hollow[1] - area * center[0] * center[1];
+    let [width, height] = [a - 0.5 * (left + right), b - 0.5 * (bottom + top)];
+    let flow = height / left + height / right + width / bottom + width / top;
+    let mut keys = vec![
+        ("shape", Word("general")),
+        ("area", Number(area)),
+        ("moments", Numbers(vec![second(1, [a, b]), second(0, [a, b])])),
+        ("torsion_constant", Number(4.0 * (width * height).powi(2) / flow)),
+        ("shear_areas", Numbers(vec![width * (bottom + top), height * (left + right)])),
+    ];
+    if product != 0.0 {
+        keys.push(("product_moment", Number(product)));
+    }
+    Ok((keys, center))
+}
+
 /// A line of walls through points; `rows`: the number of walls, the first two points and a thickness, then a point and a thickness each.
 pub fn arbitrary(rows: &[Vec<f64>]) -> Result<KeysAndCentroid, String> {
     let count = rows.first().and_then(|row| row.first()).map_or(0, |count| *count as usize);

@@ -1,5 +1,6 @@
 //! Constraints on nodes: local axes, equations, couplings that spread forces.
 
+use crate::pretension::Cut;
 use base::math::{Mat3, Vec3};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -66,6 +67,8 @@ pub struct DistributedNodes {
 pub struct TiedNodes {
     /// Sets of shell elements that nodes are tied to, by their names in the deck.
     pub faces: BTreeMap<String, Vec<u64>>,
+    /// Beams that pre-tension sections cut.
+    pub cuts: Vec<Cut>,
     /// Nodes that bushings join.
     pub bushed: BTreeSet<u64>,
     /// Axes at nodes that have their own, as columns.

@@ -2,7 +2,7 @@
 
 use base::diagnostic::{Diagnostic, Severity};
 use base::text_file::{Fault, Text, Word};
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 
 /// The verdict on a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -59,6 +59,8 @@ pub struct Verdicts {
     keywords: Vec<(usize, String)>,
     /// All rows, as they were found.
     pub rows: Vec<VerdictRow>,
+    /// Harmless parameters that nothing has read: "INC of *STEP".
+    pub unread: BTreeSet<String>,
     /// What has been said of each keyword.
     known: HashSet<(Option<usize>, KeywordVerdict, String)>,
     /// The keywords with a verdict.
@@ -106,6 +108,12 @@ impl Verdicts {
     /// True where a keyword has a verdict already; `line`: its own.
     pub fn has(&self, line: usize) -> bool {
         self.judged.contains(&self.keyword(line))
+    }
+
+    /// True where a keyword is refused; `line`: its own.
+    pub fn is_refused(&self, line: usize) -> bool {
+        let of = self.keyword(line);
+        self.known.iter().any(|(known, verdict, _)| *known == of && *verdict == KeywordVerdict::Refused)
     }
 
     /// The number of rows with a verdict.

@@ -100,6 +100,8 @@ pub mod residual {
 pub mod load_steps {
     /// Loads and motions below this part of their maximum count as zero: amplitudes return to zero only to the rounding of their times.
     pub const GONE: f64 = 1e-12;
+    /// Forces below this part of the largest so far may be rounding errors of them: a thousand elements leave 1e-10 after unloading.
+    pub const FADED: f64 = 1e-6;
     /// Support motion, as a part of the model's length or in radians, that causes stresses a million times larger than rounding.
     pub const SEEN: f64 = 1e-9;
     /// Part of the summed terms above which a residual has no correct digit.

@@ -23,7 +23,10 @@ fn files_are_written_once() {
     let folder = folder(&[("rod.inp", &deck("oscillator"))]);
     let (code, said, problems) = rdsolve(folder.path(), &["import", "rod.inp"]);
     assert_eq!((code, problems.as_str()), (0, ""));
-    assert_eq!(said, "rod.inp: 13 translated\nwritten: rod.toml, rod.mesh.inp, rod.import.csv\n");
+    assert_eq!(
+        said,
+        "rod.inp: 13 translated, 2 ignored\nnot read, without effect: INC of *STEP, NSET of *NODE PRINT\nwritten: rod.toml, rod.mesh.inp, rod.import.csv\n"
+    );
     let report = std::fs::read_to_string(folder.path().join("rod.import.csv")).unwrap();
     assert!(
         report.starts_with("file,line,keyword,verdict,text\nrod.inp,1,*NODE,translated,nodes of the mesh\n"),

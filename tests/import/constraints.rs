@@ -268,3 +268,17 @@ fn ties_of_surfaces() {
         }
     }
 }
+
+/// A pendulum in a plane whose links an equation joins: reactions are written for its supports, none of which lies across the plane.
+#[test]
+fn reactions_of_a_plane_with_equations() {
+    let text = "*NODE, NSET=ALL\n1, 0., 0., 0.\n2, 0., 0., -1.\n3, 0., 0., -1.\n4, 0., 0., -2.\n*ELEMENT, TYPE=B31, ELSET=rod\n1, 1, 2\n2, 3, 4\n\
+                *BEAM SECTION, MATERIAL=m, ELSET=rod, SECTION=RECT\n0.1, 0.1\n0., 1., 0.\n*MATERIAL, NAME=m\n*ELASTIC\n2e11, 0.3\n\
+                *DENSITY\n7800.\n*EQUATION\n2\n2, 1, -1., 3, 1, 1.\n2\n2, 3, -1., 3, 3, 1.\n*BOUNDARY\nALL, 2, 2\nALL, 4, 4\nALL, 6, 6\n1, 1, 3\n\
+                *STEP, NLGEOM\n*DYNAMIC\n0.001, 0.01\n*DLOAD\nrod, GRAV, 9.81, 1., 0., 0.\n*NODE PRINT, NSET=ALL\nU, RF\n*END STEP\n";
+    let folder = super::command::folder(&[("a.inp", text)]);
+    let (code, said, problems) = super::command::rdsolve(folder.path(), &["a.inp"]);
+    assert_eq!(code, 0, "{said}{problems}");
+    let reactions = std::fs::read_to_string(folder.path().join("a.out/reactions.csv")).unwrap();
+    assert!(reactions.contains(",mesh.1,ux,"), "{reactions}");
+}

@@ -1,6 +1,8 @@
 //! Every keyword has a verdict, and every refusal its reason.
 
-use super::{decks, imported, refusals};
+use super::rows::{BEAM, edited};
+use super::{decks, imported, reasons, refusals};
+use import::KeywordVerdict;
 use import::keywords::{KEYWORDS, Treatment};
 use std::collections::BTreeSet;
 
@@ -19,6 +21,39 @@ fn refused_and_ignored_keywords() {
     assert!(refusals(&imported("*TELEPORT\n")).contains(&"1 *TELEPORT: *TELEPORT is not known".to_owned()));
     let stranger = refusals(&imported("*BOUNDARY, SUBMODEL\n"));
     assert!(stranger.contains(&"1 *BOUNDARY: SUBMODEL of *BOUNDARY is not read".to_owned()), "{stranger:?}");
+}
+
+/// A parameter that nothing asks for is in the report: as refused where nobody knows it, as changed or refused where it acts on the motion,
+/// else as ignored.
+#[test]
+fn parameters_that_nothing_reads() {
+    let with = |keyword: &str, parameter: &str| {
+        let text = format!("*{keyword}{parameter}\n1, 2, 3\n");
+        imported(&text).verdicts.rows.into_iter().filter(|row| row.line == 1).collect::<Vec<_>>()
+    };
+    for row in KEYWORDS.iter().filter(|row| matches!(row.treatment, Treatment::Read(_)) && row.harmless != "*") {
+        let said = with(row.word, ", NOBODYS=1");
+        assert!(said.iter().any(|row| row.verdict == KeywordVerdict::Refused), "{}", row.word);
+    }
+    for (edits, verdict, wanted) in [
+        (("*STEP,", "*STEP, INC=100,"), KeywordVerdict::Ignored, "INC is not read"),
+        (("SECTION=RECT", "SECTION=RECT, POISSON=0.3"), KeywordVerdict::Changed, "POISSON: sections keep"),
+        (("SECTION=RECT", "SECTION=RECT, POISSON=0."), KeywordVerdict::Ignored, "POISSON is not read"),
+        (("SECTION=RECT", "SECTION=RECT, TEMPERATURE=VALUES"), KeywordVerdict::Refused, "TEMPERATURE: temp"),
+        (("SECTION=RECT", "SECTION=RECT, TEMPERATURE=GRADIENTS"), KeywordVerdict::Ignored, "TEMPERATURE is not"),
+        (("*NSET,", "*NSET, UNSORTED,"), KeywordVerdict::Ignored, "UNSORTED is not read"),
+        (("*NODE", "*NODE, INPUT=a.txt"), KeywordVerdict::Refused, "INPUT: lines of another file"),
+    ] {
+        let made = imported(&edited(BEAM, &[edits]));
+        assert!(reasons(&made, verdict).iter().any(|said| said.contains(wanted)), "{wanted}");
+        let of_steps = made.verdicts.rows.iter().filter(|row| row.keyword == "*STEP");
+        assert_eq!(of_steps.filter(|row| row.verdict == KeywordVerdict::Translated).count(), 1, "{wanted}");
+    }
+    let unread = imported(&edited(BEAM, &[("*STEP,", "*STEP, INC=100,")])).verdicts.unread;
+    assert_eq!(unread.into_iter().collect::<Vec<_>>(), ["INC of *STEP"]);
+    // The program of the file is found by TYPE of all keywords: that is no reading.
+    let tie = imported("*TIE, NAME=t, TYPE=SURFACE TO SURFACE\na, b\n");
+    assert!(reasons(&tie, KeywordVerdict::Changed).iter().any(|said| said.contains("TYPE: each node is tied")));
 }
 
 /// No keyword stands in two rows.

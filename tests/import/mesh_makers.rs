@@ -66,7 +66,7 @@ fn meshes_that_cannot_be_made() {
         ("CHANGE NUMBER=1000, SHIFT", "CHANGE NUMBER=4, SHIFT", "at another place"),
         ("5, 4., 0., 0.\n", "5, 4., 0., 0.\n3, 9., 9., 9.\n", "node 3 exists before this line, at another place"),
         ("OLD SET=low,", "OLD SET=lost,", "node 99 of this set does not exist"),
-        ("CHANGE NUMBER=1000, SHIFT", "CHANGE NUMBER=1000, REFLECT=LINE", "REFLECT of *NCOPY is not read"),
+        ("CHANGE NUMBER=1000, SHIFT", "CHANGE NUMBER=1000, REFLECT=LINE", "nodes are copied once and by SHIFT alone"),
         ("CHANGE NUMBER=1000, SHIFT", "SHIFT", "needs CHANGENUMBER="),
         ("0., 0., 0., 0., 0., 1., 180.", "0., 0., 0., 0., 0., 0., 180.", "the two points of the axis"),
         ("OLD SET=rib,", "OLD SET=ribbon,", "no set before this line is named `ribbon`"),

@@ -140,6 +140,16 @@ fn parameters_that_count() {
     refuses(&general("heavy"), &[], "DENSITY must be a number");
 }
 
+/// Velocities of zero at the start are no initial motion.
+#[test]
+fn a_start_at_rest() {
+    let text = edited(BEAM, &[("*STEP", "*INITIAL CONDITIONS, TYPE=VELOCITY\n2, 3, 0.\n*STEP")]);
+    let made = imported(&text);
+    assert_eq!(refusals(&made), [""; 0]);
+    assert!(!made.deck.contains("[[initial]]"), "{}", made.deck);
+    assert!(reasons(&made, KeywordVerdict::Ignored).iter().any(|said| said.contains("all begins at rest")));
+}
+
 /// Gravity of a later step is not there in the modes before it, and then acts at once: z = −g t²/2.
 #[test]
 fn gravity_after_modes() {

@@ -243,14 +243,14 @@ fn laws_of_contact() {
 }
 
 /// The edge of the punch presses nodes at a = 0.95 down by u = 2 mm; the strip at x = 0.5 sinks by u x² (3 a - x)/(2 a³). The edge lies on
-/// these nodes or beside them. Shear and large rotations change it by less than 1e-3. The support names the body, as the limits advise.
+/// these nodes or beside them. Shear and large rotations change it by less than 1e-3. The support holds the rotations of the punch, and so names its body.
 #[test]
 fn a_rigid_punch() {
     let heavy = ("*ELASTIC\n2e11", "*DENSITY\n7800.\n*ELASTIC\n2e11");
     let beside = [("1, 0.95, -0.05", "1, 0.94, -0.05"), ("4, 0.95, 0.15", "4, 0.94, 0.15")];
     for edits in [vec![], vec![heavy], beside.to_vec(), [&beside[..], &[heavy]].concat()] {
-        let mut made = imported(&edited(&punch(""), &edits));
-        made.deck = edited(&made.deck, &[("at = \"P.RP\"", "at = \"P.stamp\"")]);
+        let made = imported(&edited(&punch(""), &edits));
+        assert!(made.deck.contains("at = \"P.stamp\"\n"), "{}", made.deck);
         let model = model_of(&made);
         let at = support::node(&model, "mesh.11");
         let done = support::run_to_the_end(&model, &mut |frame| vec![frame.state.nodes[at].x.z]);
@@ -266,7 +266,7 @@ fn a_rigid_punch_that_does_not_touch() {
             punch("").replace("0.95, -0.05", &format!("{edge}, -0.05")).replace("0.95, 0.15", &format!("{edge}, 0.15"));
         let text = edited(&text, &[("3, 3, -0.003", "3, 3, -0.0005")]);
         // The regularization of joints leaves its part of the motion, 1e-11.
-        near(moves(&text, "mesh.109").0[2], -0.0005, 1e-9);
+        near(moves(&text, "mesh.101").0[2], -0.0005, 1e-9);
     }
 }
 

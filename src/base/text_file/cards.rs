@@ -6,6 +6,7 @@
 //! Here the next line continues the keyword where it has the form of parameters, since no data have it.
 
 use super::text::{Fault, Text, TextLine, Word};
+use std::cell::Cell;
 
 /// Letters of a parameter at least: shorter abbreviations may mean several.
 const ABBREVIATION: usize = 3;
@@ -44,6 +45,8 @@ struct Parameter<'t> {
     name: String,
     value: Option<String>,
     word: Word<'t>,
+    /// True once a reader has asked for it.
+    is_read: Cell<bool>,
 }
 
 /// A line of data, and the lines that continue it.
@@ -132,10 +135,15 @@ impl Keyword<'_> {
         self.parameter(name).is_some()
     }
 
-    /// The first parameter that is none of these, which have no blanks in their names.
-    pub fn stranger(&self, known: &[&str]) -> Option<&str> {
-        let is_known = |parameter: &&Parameter| known.iter().any(|known| stands_for(&parameter.name, known));
-        self.parameters.iter().find(|parameter| !is_known(parameter)).map(|parameter| &*parameter.name)
+    /// Forgets who has asked for parameters: its reader begins.
+    pub fn forget_reads(&self) {
+        self.parameters.iter().for_each(|parameter| parameter.is_read.set(false));
+    }
+
+    /// The names and values of the parameters that no reader has asked for.
+    pub fn unread(&self) -> impl Iterator<Item = (&str, &str)> {
+        let unread = self.parameters.iter().filter(|parameter| !parameter.is_read.get());
+        unread.map(|parameter| (&*parameter.name, parameter.value.as_deref().unwrap_or_default()))
     }
 
     /// An error at a parameter, or at the keyword where it is missing.
@@ -148,7 +156,9 @@ impl Keyword<'_> {
 
     fn parameter(&self, name: &str) -> Option<&Parameter<'_>> {
         let whole = self.parameters.iter().find(|parameter| parameter.name == name);
-        whole.or_else(|| self.parameters.iter().find(|parameter| stands_for(&parameter.name, name)))
+        let found = whole.or_else(|| self.parameters.iter().find(|parameter| stands_for(&parameter.name, name)))?;
+        found.is_read.set(true);
+        Some(found)
     }
 }
 
@@ -173,7 +183,7 @@ fn unquoted(text: &str) -> String {
 }
 
 /// True where a word is a parameter or an abbreviation of it.
-fn stands_for(word: &str, parameter: &str) -> bool {
+pub fn stands_for(word: &str, parameter: &str) -> bool {
     word == parameter || word.len() >= ABBREVIATION && parameter.starts_with(word)
 }
 
@@ -181,7 +191,7 @@ fn parameter<'t>(word: &Word<'t>) -> Parameter<'t> {
     let text = word.text();
     let (name, value) = text.split_once('=').map_or((text.as_str(), None), |(name, value)| (name, Some(value)));
     let name = name.split_whitespace().collect::<String>().to_ascii_uppercase();
-    Parameter { name, value: value.map(unquoted), word: *word }
+    Parameter { name, value: value.map(unquoted), word: *word, is_read: Cell::new(false) }
 }
 
 fn begins_keyword(line: TextLine) -> bool {

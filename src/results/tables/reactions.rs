@@ -31,13 +31,11 @@ pub static TABLE: TableKind = TableKind {
         let model = extent.model;
         let restraints = &model.constraints.restraints;
         let joints = model.constraints.joints.iter().filter(|joint| joint.is_listed());
-        let supports = restraints
-            .iter()
-            .filter(|held| !model.nodes[held.node].is_number)
-            .map(|restraint| model.nodes[restraint.node].label.as_str());
+        let written = || restraints.iter().filter(|held| !model.nodes[held.node].is_number);
+        let supports = written().map(|restraint| model.nodes[restraint.node].label.as_str());
         let of_joints = joints.flat_map(|joint| [joint.name.as_str(); DIRECTIONS.len()]);
         let all = Rows::named(supports.chain(of_joints), 0);
-        let idle = restraints.iter().filter(|restraint| !extent.in_plane(restraint.dof)).count();
+        let idle = written().filter(|restraint| !extent.in_plane(restraint.dof)).count();
         Rows { letters: all.letters + 2 * all.rows, numbers: all.rows - idle, ..all }
     },
     rows: |_| Box::new(write),

@@ -5,7 +5,7 @@
 
 use crate::sudden_loads::SuddenLoads;
 use crate::system::{Loading, Prescribed, Scale};
-use crate::tolerances::load_steps::{GONE, ROUNDING, SEEN};
+use crate::tolerances::load_steps::{FADED, GONE, ROUNDING, SEEN};
 use base::snapshot::keep;
 
 /// The largest of each kind so far.
@@ -15,6 +15,8 @@ pub struct Peak {
     acting: [f64; 5],
     /// The terms that forces are summed from.
     pub forces: Scale,
+    /// Those of equilibria whose forces have digits; a residual of exactly zero may be one of no forces.
+    firm: Scale,
     /// The forces of the residual evaluated last.
     last: Scale,
     /// True if all loads and prescribed displacements have gone in the current step.
@@ -27,7 +29,7 @@ pub struct Peak {
     pub stressed: bool,
 }
 
-keep!(Peak { acting, forces, last, released, unloaded, unstressed, stressed });
+keep!(Peak { acting, forces, firm, last, released, unloaded, unstressed, stressed });
 
 /// The data that load steps pass to later ones.
 #[derive(Debug, Clone, Default)]
@@ -110,15 +112,20 @@ impl Peak {
     }
 
     /// True if an equilibrium with this residual has only forces of rounding size: nothing acts yet, or the supports move the whole
-    /// structure as a rigid body.
+    /// structure as a rigid body. Forces that are not far below those of an earlier equilibrium have digits, and must balance.
     pub fn is_unstressed(&self, residual: f64) -> bool {
-        self.unloaded && residual > ROUNDING
+        let has_faded = |now: f64, most: f64| most == 0.0 || now <= FADED * most;
+        let faded = has_faded(self.last.force, self.firm.force) && has_faded(self.last.moment, self.firm.moment);
+        self.unloaded && residual > ROUNDING && faded
     }
 
     /// Keeps the forces of an equilibrium.
     pub fn keep(&mut self, residual: f64) {
         self.unstressed = self.is_unstressed(residual);
         self.stressed |= !self.unstressed;
+        if !self.unstressed && residual > 0.0 {
+            self.firm = larger(self.firm, self.last);
+        }
         self.forces = larger(self.forces, self.last);
     }
 }
