@@ -85,12 +85,15 @@ fn pair(build: &mut Build, card: &ContactCard, touching: &[String], (piece, law)
     build.deck.add(table);
 }
 
-/// Elements of the surfaces in contact: parts are cut there, and rigid elements have faces.
+/// Elements of each surface in contact: parts are cut there, and rigid elements have faces.
 pub fn marks(build: &Build) -> Vec<BTreeSet<usize>> {
     let (scopes, mesh) = (&build.im.scopes, &build.mesh);
     let surfaces = build.im.constraints.contacts.pairs.iter().flat_map(|card| &card.surfaces);
-    let sets = surfaces.filter_map(|surface| scopes.surface(surface)).flatten().filter(|(_, side)| side != "NODE");
-    sets.filter_map(|(set, _)| Some(mesh.cell_indices(scopes, &set)?.into_iter().collect())).collect()
+    let of = |surface| {
+        let sets = scopes.surface(surface)?.into_iter().filter(|(_, side)| side != "NODE");
+        Some(sets.filter_map(|(set, _)| mesh.cell_indices(scopes, &set)).flatten().collect())
+    };
+    surfaces.filter_map(of).collect()
 }
 
 /// The parts in a surface.
