@@ -143,6 +143,22 @@ fn loads_along_curved_edges() {
     assert!((resultant + 6.0).abs() < 1e-12, "{text}");
 }
 
+/// Pre-processors write a line for each element: they are one load of one part, in each step.
+#[test]
+fn loads_of_single_elements() {
+    let edits = [
+        ("4, 0., 1., 0.\n", "4, 0., 1., 0.\n5, 0., 3., 0.\n6, 1., 3., 0.\n"),
+        ("1, 1, 2, 3, 4\n", "1, 1, 2, 3, 4\n2, 4, 3, 6, 5\n"),
+        ("*CLOAD\n3, 3, 5.", "*DLOAD\n1, P, 8.\n2, P, 8."),
+    ];
+    let one = edited(SHELL, &edits);
+    has(&one, &[], None, "[[loads]]\npart = \"skin\"\npressure = -8.0\n");
+    let two = format!("{one}*STEP, NLGEOM\n*STATIC\n0.5, 1.\n*DLOAD\n2, P, 4.\n1, P, 4.\n*END STEP\n");
+    has(&two, &[], None, "points = [[0.0, 0.0], [1.0, 1.0], [2.0, 0.5]]\n");
+    let made = imported(&one.replace("2, P, 8.", "2, P, 9."));
+    assert_eq!(tables(&made.deck).matches("[[loads]]").count(), 2, "{}", made.deck);
+}
+
 /// Tractions on faces have a direction in space.
 #[test]
 fn tractions_on_faces() {
