@@ -310,6 +310,9 @@ impl Job<'_> {
         let resumes = checkpoint.is_some();
         let log = self.begin(resumes)?;
         let mut watchers = self.watchers(log, resumes)?;
+        if let Some(chosen) = self.chosen {
+            chosen.tell_steps(run, watchers.bars.as_mut(), &mut watchers.expectations);
+        }
         let looping = Instant::now();
         let mut told = StagesTold::default();
         let outcome = self.stages().run(run, checkpoint, (&mut watchers, &mut told))?;
@@ -436,6 +439,9 @@ impl Job<'_> {
         let Watchers { expectations, bars: Some(bars), .. } = watchers else { return None };
         if !self.tells_mesh_error() || !matches!(outcome, Outcome::Done) {
             return None;
+        }
+        if let Some(told) = self.chosen.and_then(|chosen| chosen.tell_mesh(bars, expectations)) {
+            return Some(Ok(told));
         }
         let (source, model) = (&self.loaded.source, &self.loaded.model);
         let like = (run.step_error(), self.threads, self.stop);

@@ -92,11 +92,13 @@ struct Watch {
     before: (Option<Sample>, ComparedHistory),
     /// ... and the values of an unseen run.
     unseen: ComparedHistory,
+    /// The values of a pilot run.
+    pilot: ComparedHistory,
     step_error: Option<f64>,
     mesh_error: Option<f64>,
 }
 
-keep!(Watch { is_here, sample, of_stages_before, history, before, unseen, step_error, mesh_error } without { expect, quantity });
+keep!(Watch { is_here, sample, of_stages_before, history, before, unseen, step_error, mesh_error } without { expect, quantity, pilot });
 
 #[derive(Clone, Copy, Default)]
 struct Sample {
@@ -156,6 +158,34 @@ impl Expectations {
     pub fn on_coarser_mesh(&mut self, apart: f64) {
         for watch in &mut self.watches {
             watch.mesh_error = watch.told_by(watch.sample, &watch.unseen, apart, self.end_time);
+        }
+    }
+
+    /// Receives a frame of the run itself, a pilot run without tables.
+    pub fn on_pilot(&mut self, frame: &Frame) {
+        for watch in &mut self.watches {
+            if let Some(value) = watch.value(frame) {
+                watch.pilot.keep(frame.state.time, &[value]);
+            }
+        }
+    }
+
+    /// Keeps the values of a pilot run that may tell the errors by the steps.
+    pub fn compare_with(&mut self, pilot: &Expectations) {
+        for (watch, pilot) in self.watches.iter_mut().zip(&pilot.watches) {
+            watch.pilot.clone_from(&pilot.pilot);
+        }
+    }
+
+    /// Tells the errors by the mesh from two pilot runs, the second with a coarser mesh and errors larger by this factor.
+    pub fn told_by_pilots(&mut self, [fine, coarse]: [&Expectations; 2], apart: f64) {
+        let rounding = 1e-9 * self.end_time;
+        for (watch, (fine, coarse)) in self.watches.iter_mut().zip(fine.watches.iter().zip(&coarse.watches)) {
+            let histories = [&fine.pilot, &coarse.pilot];
+            let at = |time: f64| histories.map(|history| Some(history.numbers_at(time, rounding)?[0]));
+            let pair = watch.sample.map(|sample| at(sample.time)).and_then(|[fine, coarse]| Some([fine?, coarse?]));
+            let anywhere = histories[0].largest_differences(histories[1], 1, rounding);
+            watch.mesh_error = Told::by(pair, anywhere.map(|all| all[0]), apart).error;
         }
     }
 
@@ -251,6 +281,7 @@ impl Observer for Expectations {
             watch.step_error = match other {
                 Some(OtherRun::Comparison(apart)) => watch.told_by(watch.sample, &watch.unseen, apart, self.end_time),
                 Some(OtherRun::Before(apart)) => watch.told_by(watch.before.0, &watch.before.1, apart, self.end_time),
+                Some(OtherRun::Pilot(apart)) => watch.told_by_pilot(apart, self.end_time),
                 None => None,
             };
         }
@@ -269,6 +300,7 @@ impl Watch {
             history: ComparedHistory::default(),
             before: Default::default(),
             unseen: ComparedHistory::default(),
+            pilot: ComparedHistory::default(),
             step_error: None,
             mesh_error: None,
         }
@@ -280,6 +312,13 @@ impl Watch {
             Sample::read(&mut self.sample, time, value, end_time);
             self.unseen.keep(time, &[value]);
         }
+    }
+
+    /// The error estimated from a pilot run.
+    fn told_by_pilot(&self, apart: f64, end_time: f64) -> Option<f64> {
+        let at = |sample: Sample| self.pilot.numbers_at(sample.time, 1e-9 * end_time).map(|numbers| numbers[0]);
+        let sample = self.sample.map(|sample| Sample { other: at(sample), ..sample });
+        self.told_by(sample, &self.pilot, apart, end_time)
     }
 
     /// The error estimated from the history of another run and its value at the time of either sample.

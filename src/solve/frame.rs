@@ -95,6 +95,11 @@ pub trait Observer {
     /// Receives the run used for the errors of the received results; `None` if there is none.
     fn on_other_run(&mut self, _: Option<OtherRun>) {}
 
+    /// True where the run need not go on: its error will be too large. It is asked before every step.
+    fn is_futile(&self) -> bool {
+        false
+    }
+
     /// True where a checkpoint is due. It is asked before every step, and at the end of a run that can be made longer.
     fn wants_checkpoint(&mut self, _at_end: bool) -> bool {
         false
@@ -116,6 +121,8 @@ pub enum OtherRun {
     Comparison(f64),
     /// The run before [`Observer::restart`], likewise.
     Before(f64),
+    /// The pilot run that [`crate::Run::compare_with`] has received, likewise.
+    Pilot(f64),
 }
 
 impl Observer for () {

@@ -3,13 +3,13 @@
 
 use super::control::{Schedule, comparison_times};
 use super::frame::{Observer, OtherRun};
-use super::global_error::{Kept, StepError, Trace, Unseen};
+use super::global_error::{Kept, LookAhead, StepError, Trace, Unseen};
 use super::outcome::Outcome;
 use super::recorder::Recorder;
 use super::run::{Run, SingleRun};
 use super::stop_watch::StopWatch;
 use super::warning::Warnings;
-use crate::tolerances::global_error::{EARLY, FEW, IN_TIME, LOOSER, MOST_LONGER, MOST_RUNS};
+use crate::tolerances::global_error::{EARLY, FEW, IN_TIME, LOOSER, MOST_EARLY, MOST_LONGER, MOST_RUNS};
 use base::snapshot::{Keep, keep, keep_either};
 use mechanics::state::State;
 use model::StepLength;
@@ -39,6 +39,13 @@ struct GlobalErrorControl {
 }
 
 keep!(GlobalErrorControl { under_way, error, pieces, compared, before, judged, between });
+
+impl GlobalErrorControl {
+    /// True if a pilot run tells the error of the current run: no whole run came before, and the times of comparison are the same.
+    fn is_told_by(&self, pilot: &Kept) -> bool {
+        self.error.others == self.error.early && pilot.is_whole() && pilot.between == self.between
+    }
+}
 
 /// The kind of the run that is under way.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -133,9 +140,18 @@ impl Run<'_> {
         let model = self.context.model;
         let times = comparison_times(control.between).chain(control.compared.iter().copied());
         let schedule = Schedule::new(model, times, self.controller.looks_inside()).cut(control.pieces.now);
-        let mut trace = Trace::new(observer, model.solution.scheme.order() + 1, control.between);
+        let pilot = self.pilot.take();
+        let ahead = pilot.as_ref().filter(|pilot| control.error.early < MOST_EARLY && control.is_told_by(pilot));
+        let ahead = ahead.map(|pilot| LookAhead::new(pilot, control.error.asked, self.context.length));
+        let mut trace = Trace::new(observer, model.solution.scheme.order() + 1, control.between).looking_ahead(ahead);
         let (outcome, state) = self.once(&mut trace, &schedule, control);
-        let run = trace.into_kept().with_events(self.recorder.events.met());
+        let (predicted, run) = (trace.predicted(), trace.into_kept().with_events(self.recorder.events.met()));
+        self.pilot = pilot;
+        if let Some(predicted) = predicted {
+            let longest = self.pilot.iter().chain([&run]).map(Kept::longest).fold(0.0, f64::max);
+            let begun = self.begin_shorter((predicted, longest), control, observer);
+            return begun.err().map(|error| (Outcome::Io(error), None));
+        }
         // The run fails with shorter steps, but the previous run was complete.
         if control.before.is_some() && matches!(outcome, Outcome::Failed { .. }) {
             let of_before = control.error.before;
@@ -149,13 +165,38 @@ impl Run<'_> {
         }
         control.judged.run = run;
         control.judged.state.clone_from(state);
-        match control.before.take().filter(|before| control.judged.run.is_told_by(before)) {
-            Some(before) => self.judge(control, Some((OtherRun::Before, before)), observer),
+        let pilot = self.pilot.take().filter(|pilot| control.is_told_by(pilot));
+        let other = control.before.take().map(|before| (OtherRun::Before as TellOther, before));
+        let other = other.or(pilot.map(|pilot| (OtherRun::Pilot as TellOther, pilot)));
+        match other.filter(|(_, other)| control.judged.run.is_told_by(other)) {
+            Some(other) => self.judge(control, Some(other), observer),
             None => {
                 self.begin_comparison(control, observer);
                 None
             }
         }
+    }
+
+    /// Prepares for a run with shorter steps in place of one with this predicted error and longest step, which has ended early.
+    ///
+    /// # Errors
+    /// As for [`Run::begin_again`].
+    fn begin_shorter(
+        &mut self,
+        (predicted, longest): (f64, f64),
+        control: &mut GlobalErrorControl,
+        observer: &mut dyn Observer,
+    ) -> std::io::Result<()> {
+        let tolerance = control.error.in_place_of(predicted);
+        let longest = self.shortened(longest, tolerance / control.error.tolerance);
+        self.begin_again(&mut control.error, (tolerance, Some(longest)), observer)?;
+        control.error.early += 1;
+        Ok(())
+    }
+
+    /// The longest step of a run whose tolerance is smaller by this factor.
+    fn shortened(&self, longest: f64, factor: f64) -> f64 {
+        longest * factor.powf(1.0 / self.context.model.solution.scheme.order() as f64)
     }
 
     /// The new end of the comparison times if a run has stopped so early that hardly any of them lie before; `None` otherwise. Comparison
@@ -205,7 +246,7 @@ impl Run<'_> {
         // If jumps and kinks of loads determine most steps, only a finer division between them changes the steps.
         *pieces = Pieces { before: pieces.now, now: if dictated { 2 * pieces.now } else { pieces.now } };
         let next = if dictated { Some(error.tolerance) } else { next };
-        let Some(tolerance) = next.filter(|_| error.others < MOST_RUNS) else {
+        let Some(tolerance) = next.filter(|_| error.others - error.early < MOST_RUNS) else {
             self.workspace.warnings.extend(error.warning());
             self.step_error = Some(*error);
             return Some((Outcome::Done, Some(std::mem::take(&mut judged.state))));
@@ -213,8 +254,7 @@ impl Run<'_> {
         let most_steps = MOST_LONGER * self.recorder.own().steps;
         // Steps that no tolerance limits shrink as well, or the run would be the same again.
         control.compared = if inside { observer.times_to_compare() } else { Vec::new() };
-        let power = self.context.model.solution.scheme.order();
-        let longest = run.longest() * (tolerance / error.tolerance).powf(1.0 / power as f64);
+        let longest = self.shortened(run.longest(), tolerance / error.tolerance);
         if let Err(fault) = self.begin_again(error, (tolerance, Some(longest)), observer) {
             return Some((Outcome::Io(fault), Some(std::mem::take(&mut judged.state))));
         }

@@ -56,7 +56,6 @@ pub mod inner {
     pub use crate::control::COMPARISONS;
     pub use crate::explicit::CentralDifferenceStepper;
     pub use crate::friction_warnings::{ContactThrows, SlipBegins};
-    pub use crate::global_error::Kept;
     pub use crate::no_convergence::NoConvergence;
     pub use crate::start::start;
     pub use crate::step::load_steps::{LoadSteps, Peak};
@@ -75,7 +74,8 @@ pub use derived::{Derived, Wanted};
 pub use effort::Effort;
 pub use failure::{Failure, NamedResidual};
 pub use frame::{Frame, Observer, OtherRun, ShownCase};
-pub use global_error::StepError;
+pub use global_error::{Kept, StepError};
+pub use control::comparison_times;
 pub use guards::breakage::Broken;
 pub use guards::contacts::settling_energy;
 pub use handover::{Handover, share_plane};

@@ -60,8 +60,11 @@ impl March<'_, '_> {
     /// Between two steps of `controller`: writes a checkpoint when due. If the stop flag is raised, it also ends the run.
     ///
     /// # Errors
-    /// [`Outcome::Stopped`] if the run is to end, [`Outcome::Io`] if the observer cannot write.
+    /// [`Outcome::Stopped`] if the run is to end, [`Outcome::Failed`] if it is futile, [`Outcome::Io`] if the observer cannot write.
     pub fn pause(&mut self, controller: &mut dyn Keep) -> Result<(), Outcome> {
+        if self.observer.is_futile() {
+            return Err(Outcome::Failed { time: self.state.time, failure: Failure::ErrorTooLarge { dt: 0.0 } });
+        }
         let stops = self.stop.load(Ordering::Relaxed);
         if stops || self.observer.wants_checkpoint(false) {
             self.show_checkpoint(controller, false)?;

@@ -6,7 +6,7 @@ use super::derived::Wanted;
 use super::energy_growth::checks_energy_growth;
 use super::failure::Failure;
 use super::frame::Observer;
-use super::global_error::{StepError, Unseen};
+use super::global_error::{Kept, StepError, Trace, Unseen};
 use super::handover::{EndedStage, Handover, hand_over};
 use super::march::{March, RunPosition};
 use super::modes::{ModesFault, find_damped};
@@ -72,6 +72,8 @@ pub struct Run<'a> {
     /// The watch that may end the stage early.
     pub(super) stop_watch: Option<StopWatch>,
     stop: &'a AtomicBool,
+    /// A pilot run of the same scene with longer steps, in place of a comparison run.
+    pub(super) pilot: Option<Kept>,
     /// The checkpoint that the run resumes from; `None` afterwards.
     pub(super) checkpoint: Option<Snapshot>,
 }
@@ -97,8 +99,26 @@ impl<'a> Run<'a> {
         let controller = Controller::new(&context, &mut workspace)?;
         let recorder = Recorder::new(model, wanted);
         let stop_watch = StopWatch::new(&context);
-        let (step_error, handover, checkpoint) = (None, None, None);
-        Ok(Run { context, workspace, controller, recorder, wanted, step_error, handover, stop_watch, stop, checkpoint })
+        let (step_error, handover, pilot, checkpoint) = (None, None, None, None);
+        Ok(Run {
+            context,
+            workspace,
+            controller,
+            recorder,
+            wanted,
+            step_error,
+            handover,
+            stop_watch,
+            stop,
+            pilot,
+            checkpoint,
+        })
+    }
+
+    /// Estimates the error of steps that follow a tolerance by a pilot run of the same scene. A comparison run follows only if the steps of the
+    /// pilot run are no longer.
+    pub fn compare_with(&mut self, pilot: Kept) {
+        self.pilot = Some(pilot);
     }
 
     /// Starts the run from the end of the previous stage; with `None` it starts at t = 0.
@@ -179,13 +199,13 @@ impl<'a> Run<'a> {
     }
 
     /// Runs once and shows the observer these times as a comparison run. Error-controlled steps use the final tolerance of another run, and
-    /// end at these `ends` as well. Returns the ends of the steps, too.
+    /// end at these `ends` as well. Returns the motion, too.
     pub fn rehearse(
         &mut self,
         times: Vec<f64>,
         (like, ends): (Option<StepError>, &[f64]),
         observer: &mut dyn Observer,
-    ) -> (Outcome, Vec<f64>) {
+    ) -> (Outcome, Kept) {
         let (model, inside) = (self.context.model, self.controller.looks_inside());
         if let Some(StepError { asked, tolerance, longest, .. }) = like {
             self.follow(tolerance, longest);
@@ -200,8 +220,10 @@ impl<'a> Run<'a> {
         let schedule = make(model, times.into_iter(), inside).with_ends(ends);
         observer.begin_comparison();
         let mut unseen = Unseen::new(observer);
-        let outcome = self.once(&mut unseen, &schedule, &mut SingleRun).0;
-        (outcome, unseen.ends)
+        let between = [model.analysis.begin, model.analysis.end_time];
+        let mut trace = Trace::new(&mut unseen, model.solution.scheme.order() + 1, between);
+        let outcome = self.once(&mut trace, &schedule, &mut SingleRun).0;
+        (outcome, trace.into_kept().with_events(self.recorder.events.met()))
     }
 
     /// Prepares for a run by this tolerance, with counts from zero.

@@ -506,6 +506,8 @@ pub mod global_error {
     pub const IN_TIME: f64 = 0.8;
     /// Largest number of runs, the comparison run aside.
     pub const MOST_RUNS: usize = 4;
+    /// Largest number of runs that end early because of a predicted error.
+    pub const MOST_EARLY: usize = 2;
     /// Part of the requested error that a second run aims at.
     pub const AIM: f64 = 0.6;
     /// Multiple of the requested error that is still accepted.
@@ -537,6 +539,10 @@ pub mod trace {
     pub const TELLING: f64 = 1.1;
     /// Least number of times, since both runs may agree by chance at one of them.
     pub const FEWEST: usize = 3;
+    /// Number of the time of comparison at which the error of a whole run is predicted, a quarter of all.
+    pub const PREDICTED_AT: usize = 4;
+    /// Predicted error, as a multiple of the error asked for, that ends a run early. Predictions err by a factor of two.
+    pub const FUTILE: f64 = 2.0;
 }
 
 pub mod modes_at_end {

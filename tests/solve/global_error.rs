@@ -1,7 +1,8 @@
 //! The error of steps, from runs with longer ones.
 
 use rdsolve::math::Vec3;
-use rdsolve::solve::inner::{COMPARISONS, Kept};
+use rdsolve::solve::Kept;
+use rdsolve::solve::inner::COMPARISONS;
 use rdsolve::solve::{StepError, Warning};
 
 /// A run of so many equal steps in which one node moves by 1 and the position of another is out by `error`.

@@ -1,10 +1,10 @@
 //! The choice of contact stiffness if the deck gives none: it is raised until twice the value hardly changes the results.
 
 use super::numbers::{number, two_digits};
+use super::pilot_run::PilotRun;
 use super::pilots::Pilots;
 use deck::parts::PartKind;
 use model::{Model, Part};
-use results::observed::ObservedRun;
 
 /// Largest number of times that it is raised, ...
 const MOST_ROUNDS: usize = 3;
@@ -41,7 +41,7 @@ pub fn open_contacts(pilots: &Pilots) -> Vec<(String, f64)> {
 /// Chooses a stiffness with an error of at most `share`, for a given mesh and its results.
 pub fn choose_stiffness(
     pilots: &mut Pilots,
-    (mesh, observed): (&[String], &ObservedRun),
+    (mesh, observed): (&[String], &PilotRun),
     open: &[(String, f64)],
     share: f64,
 ) -> ChosenContacts {

@@ -1,9 +1,9 @@
 //! The choice of load steps in statics. They cause errors in path-dependent models: yielding, friction.
 
 use super::numbers::two_digits;
+use super::pilot_run::PilotRun;
 use super::pilots::Pilots;
 use model::StepLength;
-use results::observed::ObservedRun;
 
 /// Largest number of shorter steps that are tried, ...
 const MOST_ROUNDS: usize = 4;
@@ -22,7 +22,7 @@ pub struct ChosenSteps {
 
 /// Chooses load steps with an error of at most `share`, for given other settings and their results. The error is assumed proportional to the
 /// step.
-pub fn choose_load_steps(pilots: &mut Pilots, (sets, observed): (&[String], &ObservedRun), share: f64) -> ChosenSteps {
+pub fn choose_load_steps(pilots: &mut Pilots, (sets, observed): (&[String], &PilotRun), share: f64) -> ChosenSteps {
     let mut chosen = ChosenSteps { set: None, error: None, remarks: Vec::new() };
     let StepLength::Fixed { step } = pilots.model.analysis.step_length else { return chosen };
     let with = |step: f64| [sets, &[format!("analysis.time_step={step:e}")]].concat();

@@ -2,8 +2,8 @@
 //! are measured.
 
 use super::numbers::two_digits;
+use super::pilot_run::PilotRun;
 use super::pilots::Pilots;
-use results::observed::ObservedRun;
 use study::{CoarserMesh, RefinableParts, is_affordable};
 
 /// Largest number of finer meshes that are tried.
@@ -25,10 +25,10 @@ pub struct ChosenMesh {
     pub sets: Vec<String>,
     /// The estimated error of its results; `None` where it is not known.
     pub error: Option<f64>,
-    /// A coarser mesh, for error bars.
-    pub coarser: Option<CoarserMesh>,
-    /// The results of the pilot run with it.
-    pub observed: ObservedRun,
+    /// A coarser mesh, for error bars, and the results of a pilot run with it.
+    pub coarser: Option<(CoarserMesh, Option<PilotRun>)>,
+    /// The results of the pilot run with the chosen mesh.
+    pub observed: PilotRun,
     /// Reasons for errors that remain or are not known.
     pub remarks: Vec<String>,
 }
@@ -38,9 +38,9 @@ struct Search {
     base: Vec<RefinableParts>,
     /// The best mesh so far, and its results.
     now: Vec<RefinableParts>,
-    observed: ObservedRun,
-    /// The previous mesh, and the ratio of its error to that of this one.
-    before: Option<(Vec<RefinableParts>, f64)>,
+    observed: PilotRun,
+    /// The previous mesh, the ratio of its error to that of this one, and its results.
+    before: Option<(Vec<RefinableParts>, f64, PilotRun)>,
     /// The estimated errors by group; infinite where nothing is known.
     errors: Vec<f64>,
     /// The difference between the two meshes, and the least factor that was assumed.
@@ -53,7 +53,7 @@ struct Search {
 }
 
 /// Chooses a mesh with an error of at most `share`. The search begins with the mesh of the deck and its results.
-pub fn choose_mesh(pilots: &mut Pilots, base: Vec<RefinableParts>, share: f64, observed: ObservedRun) -> ChosenMesh {
+pub fn choose_mesh(pilots: &mut Pilots, base: Vec<RefinableParts>, share: f64, observed: PilotRun) -> ChosenMesh {
     let mut remarks = Vec::new();
     let errors = vec![f64::INFINITY; base.len()];
     let mut search = Search {
@@ -126,8 +126,8 @@ impl Search {
             return;
         }
         let told = self.compared(pilots, &all);
-        let Ok((difference, _)) = told else { return };
-        self.before = Some((all, apart));
+        let Ok((difference, run)) = told else { return };
+        self.before = Some((all, apart, run));
         self.last = Some((difference, apart));
         if is_whole {
             let each = difference / (apart - 1.0) / self.now.len() as f64;
@@ -147,7 +147,7 @@ impl Search {
     }
 
     /// The difference of the best results to those on another mesh, and these.
-    fn compared(&mut self, pilots: &mut Pilots, mesh: &[RefinableParts]) -> Result<(f64, ObservedRun), String> {
+    fn compared(&mut self, pilots: &mut Pilots, mesh: &[RefinableParts]) -> Result<(f64, PilotRun), String> {
         let theirs = pilots.run(&self.sets(mesh))?;
         let difference = pilots.difference(&self.observed, &theirs)?;
         self.worst = difference.of;
@@ -215,12 +215,13 @@ impl Search {
             };
         }
         self.worst = difference.of;
-        (self.last, self.errors, self.observed) = (Some((difference.size, assumed)), expected, run);
-        self.before = Some((std::mem::replace(&mut self.now, finer), apart));
+        (self.last, self.errors) = (Some((difference.size, assumed)), expected);
+        let before = std::mem::replace(&mut self.observed, run);
+        self.before = Some((std::mem::replace(&mut self.now, finer), apart, before));
         Ok(true)
     }
 
-    fn conclude(self, error: f64, remarks: Vec<String>) -> ChosenMesh {
+    fn conclude(mut self, error: f64, remarks: Vec<String>) -> ChosenMesh {
         ChosenMesh {
             sets: self.sets(&self.now),
             error: error.is_finite().then_some(error),
@@ -230,19 +231,21 @@ impl Search {
         }
     }
 
-    /// A coarser mesh in all groups: the previous one, and in groups that have not changed since the next coarser one.
-    fn coarser(&self) -> Option<CoarserMesh> {
-        let (before, mut apart) = self.before.clone()?;
-        let mut sets = Vec::new();
+    /// A coarser mesh in all groups: the previous one, and in groups that have not changed since the next coarser one. Its results are known if
+    /// all groups have changed.
+    fn coarser(&mut self) -> Option<(CoarserMesh, Option<PilotRun>)> {
+        let (before, mut apart, run) = self.before.take()?;
+        let (mut sets, mut run) = (Vec::new(), Some(run));
         for (now, before) in self.now.iter().zip(before) {
             match now.coarser().filter(|_| before == *now) {
                 Some((coarser, ratio)) => {
                     sets.extend(coarser.sets(now));
                     apart = apart.min(ratio);
+                    run = None;
                 }
                 None => sets.extend(before.sets(now)),
             }
         }
-        Some(CoarserMesh { sets, apart, unchanged: Vec::new(), coarsest: Vec::new() })
+        Some((CoarserMesh { sets, apart, unchanged: Vec::new(), coarsest: Vec::new() }, run))
     }
 }

@@ -7,6 +7,7 @@ mod contacts;
 mod load_steps;
 mod mesh;
 mod numbers;
+mod pilot_run;
 mod pilots;
 
 use super::load::{Loaded, build};
@@ -17,9 +18,12 @@ use load_steps::choose_load_steps;
 use mesh::choose_mesh;
 use model::{Model, StepLength};
 use numbers::{rounded_down, two_digits};
+use pilot_run::PilotRun;
 use pilots::Pilots;
-use results::result_json::{ReportedAccuracy, ReportedStepError};
-use solve::Counts;
+use results::error_bars::ErrorBars;
+use results::expect::Expectations;
+use results::result_json::{ReportedAccuracy, ReportedMesh, ReportedStepError};
+use solve::{Counts, Run};
 use std::sync::atomic::AtomicBool;
 use study::{CoarserMesh, RefinableParts, mesh_groups};
 
@@ -38,6 +42,8 @@ pub struct ChosenSettings {
     pub report: ReportedAccuracy,
     /// A coarser mesh, for error bars.
     pub coarser: Option<CoarserMesh>,
+    /// The pilot runs of a motion with the chosen mesh, and with the coarser one.
+    pilots: [Option<PilotRun>; 2],
 }
 
 /// The deck with the chosen settings; unchanged if it has no `accuracy`.
@@ -65,8 +71,9 @@ fn choose(loaded: &Loaded, deck: &Deck, asked: f64, (threads, stop): (usize, &At
     let (source, model) = (&loaded.source, &loaded.model);
     let (effort, runs) = (Counts::default(), 0);
     let mut pilots = Pilots { source, deck, model, tolerance: asked, threads, stop, ends: Vec::new(), runs, effort };
-    let mut report = ReportedAccuracy { asked, ..ReportedAccuracy::default() };
-    let mut coarser = None;
+    let report = ReportedAccuracy { asked, ..ReportedAccuracy::default() };
+    let mut chosen = ChosenSettings { report, coarser: None, pilots: [None, None] };
+    let report = &mut chosen.report;
     match pilots.run(&[]) {
         Ok(observed) => {
             let (groups, fixed) = mesh_groups(deck, model);
@@ -83,33 +90,44 @@ fn choose(loaded: &Loaded, deck: &Deck, asked: f64, (threads, stop): (usize, &At
             let mut mesh = choose_mesh(&mut pilots, groups, shares.mesh, observed);
             (report.mesh, report.settings) = (mesh.error.filter(|_| has_mesh && fixed.is_empty()), mesh.sets);
             report.remarks.append(&mut mesh.remarks);
-            coarser = mesh.coarser;
             if !open.is_empty() {
                 let stiff = choose_stiffness(&mut pilots, (&report.settings, &mesh.observed), &open, shares.contacts);
                 report.contact = stiff.error;
                 report.remarks.extend(stiff.remarks);
                 report.settings.extend(stiff.sets);
             }
-            choose_steps(&mut pilots, &mut report, &mesh.observed, &shares);
+            choose_steps(&mut pilots, report, &mesh.observed, &shares);
+            if pilots.is_automatic() {
+                let run = |(coarser, run): (CoarserMesh, Option<PilotRun>)| {
+                    let sets = [&report.settings[..], &coarser.sets].concat();
+                    let run = run.or_else(|| pilots.run(&sets).ok());
+                    (coarser, run)
+                };
+                let (coarser, run) = mesh.coarser.map(run).unzip();
+                (chosen.coarser, chosen.pilots) = (coarser, [Some(mesh.observed), run.flatten()]);
+            } else {
+                chosen.coarser = mesh.coarser.map(|(coarser, _)| coarser);
+            }
         }
         Err(reason) => {
             report.remarks.push(format!("no setting was changed: {reason}. Run the deck without `accuracy` first"))
         }
     }
+    let report = &mut chosen.report;
     report.pilot_runs = pilots.runs;
     (report.pilot_steps, report.pilot_iterations) = (pilots.effort.steps, pilots.effort.iterations);
     report.pilot_factorizations = pilots.effort.factorizations;
-    ChosenSettings { report, coarser }
+    chosen
 }
 
 /// Leaves the rest of the error to automatic steps, or chooses load steps.
 fn choose_steps(
     pilots: &mut Pilots,
     report: &mut ReportedAccuracy,
-    observed: &results::observed::ObservedRun,
+    observed: &PilotRun,
     shares: &Shares,
 ) {
-    if let StepLength::ErrorControlled { .. } = pilots.model.analysis.step_length {
+    if pilots.is_automatic() {
         let rest = report.asked - report.mesh.unwrap_or(0.0) - report.contact.unwrap_or(0.0);
         let tolerance = shares.given.unwrap_or(rest.max(shares.steps));
         report.steps = Some(tolerance);
@@ -160,6 +178,27 @@ impl Shares {
 }
 
 impl ChosenSettings {
+    /// Lets the pilot run with the chosen mesh tell the errors of the steps of a run.
+    pub fn tell_steps(&self, run: &mut Run, bars: Option<&mut ErrorBars>, expectations: &mut Expectations) {
+        let [Some(PilotRun { motion: Some(motion), numbers: Some((of_tables, of_values)), .. }), _] = &self.pilots else {
+            return;
+        };
+        run.compare_with(motion.clone());
+        bars.into_iter().for_each(|bars| bars.compare_with(of_tables));
+        expectations.compare_with(of_values);
+    }
+
+    /// Tells the errors of the mesh by the pilot runs. `None` if there are none, because the analysis is static.
+    pub fn tell_mesh(&self, bars: &mut ErrorBars, expectations: &mut Expectations) -> Option<ReportedMesh> {
+        let [Some(fine), Some(coarse)] = &self.pilots else { return None };
+        let (fine, coarse, coarser) = (fine.numbers.as_ref()?, coarse.numbers.as_ref()?, self.coarser.as_ref()?);
+        bars.told_by_pilots([&fine.0, &coarse.0], coarser.apart);
+        expectations.told_by_pilots([&fine.1, &coarse.1], coarser.apart);
+        // The pilot runs count with the choice of settings.
+        let (sets, apart, unchanged) = (coarser.sets.clone(), coarser.apart, coarser.unchanged.clone());
+        Some(ReportedMesh { sets, apart, unchanged, steps: 0, iterations: 0, factorizations: 0 })
+    }
+
     /// The chosen settings and their errors, for the log and the terminal.
     pub fn lines(&self) -> Vec<String> {
         let ReportedAccuracy { asked, mesh, contact, load_steps, steps, settings, pilot_runs, .. } = &self.report;

@@ -1,18 +1,17 @@
 //! Pilot runs: the deck with other settings, observed at a few times and otherwise unseen.
 
 use super::super::load::read_with;
+use super::pilot_run::PilotRun;
 use base::diagnostic::Source;
 use deck::Deck;
-use model::{Cadence, Model, StepLength};
-use results::observed::{ObservedRun, RunDifference};
+use model::{Cadence, Model, StepLength, When};
+use results::observed::RunDifference;
 use results::wanted;
 use solve::plan::Plan;
 use solve::system::System;
-use solve::{Counts, Outcome, Run, StepError};
+use solve::{Counts, Outcome, Run, StepError, comparison_times};
 use std::sync::atomic::AtomicBool;
 
-/// Number of equal intervals between the times of comparison of a motion.
-const INTERVALS: usize = 64;
 /// Ratio of the step tolerance of the first run to the error asked for: steps about twice as long by a scheme of third order, ...
 const LOOSER: f64 = 8.0;
 /// ... up to a tolerance with which the steps of the first run still resolve the motion.
@@ -44,11 +43,16 @@ pub struct Pilots<'a> {
 }
 
 impl Pilots<'_> {
+    /// True if the deck has automatic steps.
+    pub fn is_automatic(&self) -> bool {
+        matches!(self.model.analysis.step_length, StepLength::ErrorControlled { .. })
+    }
+
     /// The results of the deck with these overrides.
     ///
     /// # Errors
     /// The deck is not valid with them, or the run does not come to its end.
-    pub fn run(&mut self, sets: &[String]) -> Result<ObservedRun, String> {
+    pub fn run(&mut self, sets: &[String]) -> Result<PilotRun, String> {
         let with = if sets.is_empty() { String::new() } else { format!(" with {}", sets.join(", ")) };
         let mut model = read_with(self.source, sets)?;
         // Times of output would limit steps.
@@ -57,14 +61,17 @@ impl Pilots<'_> {
         let plan = Plan::new(&model, &system, self.threads);
         let run = Run::new(&model, &system, &plan, wanted(&model).where_due(), self.stop);
         let mut run = run.map_err(|error| error.to_string())?;
-        let mut observed = ObservedRun::new(&model);
-        let is_automatic = matches!(model.analysis.step_length, StepLength::ErrorControlled { .. });
+        let mut observed = PilotRun::new(&model);
+        let is_automatic = self.is_automatic();
         let like = is_automatic.then(|| StepError::new(self.tolerance));
         // Events of another mesh or stiffness come at other times, and need steps of their own.
         let like = like.map(|like| if run.has_kinks() { like } else { self.with_shared_steps(like) });
-        let (outcome, ends) = run.rehearse(self.times(), (like, &self.ends), &mut observed);
-        if is_automatic && !run.has_kinks() && matches!(outcome, Outcome::Done) && self.ends.is_empty() {
-            self.ends = ends;
+        let (outcome, motion) = run.rehearse(self.times(), (like, &self.ends), &mut observed);
+        if is_automatic && !run.has_kinks() {
+            if matches!(outcome, Outcome::Done) && self.ends.is_empty() {
+                self.ends.clone_from(&motion.ends);
+            }
+            observed.motion = Some(motion);
         }
         let Counts { steps, iterations, factorizations, .. } = run.counts();
         self.runs += 1;
@@ -89,18 +96,22 @@ impl Pilots<'_> {
     ///
     /// # Errors
     /// The runs have no results in common, or a difference is no number.
-    pub fn difference(&self, fine: &ObservedRun, coarse: &ObservedRun) -> Result<RunDifference, String> {
+    pub fn difference(&self, fine: &PilotRun, coarse: &PilotRun) -> Result<RunDifference, String> {
         let none = "no result changes with them: name points in `[points]`, or values in `[[expect]]`";
-        let difference = fine.difference(coarse).ok_or_else(|| none.to_owned())?;
+        let difference = fine.observed.difference(&coarse.observed).ok_or_else(|| none.to_owned())?;
         if difference.size.is_finite() { Ok(difference) } else { Err(format!("the {} is not finite", difference.of)) }
     }
 
-    /// The times of comparison. Load steps end at them, and so do steps of twice the length.
+    /// The times of comparison. Those of a motion include the times at which the run is compared with the pilot run. Load steps end at them, and so do steps of twice the length.
     fn times(&self) -> Vec<f64> {
         let analysis = &self.model.analysis;
         let end = analysis.end_time;
         if analysis.is_dynamic() {
-            return (1..=INTERVALS).map(|k| end * k as f64 / INTERVALS as f64).collect();
+            let expected = self.model.expects.iter().filter_map(|expect| match expect.when {
+                When::Time(time) => Some(time),
+                _ => None,
+            });
+            return comparison_times([analysis.begin, end]).chain(expected).chain([end]).collect();
         }
         let pairs = (end / (2.0 * analysis.nominal_step())) as usize;
         let stride = pairs.div_ceil(LOAD_TIMES).max(1);

@@ -36,6 +36,12 @@ impl ComparedHistory {
         &self.times
     }
 
+    /// The numbers of a time, to `rounding`; `None` where it was not kept.
+    pub fn numbers_at(&self, time: f64, rounding: f64) -> Option<&[f64]> {
+        let place = self.times.iter().position(|own| (own - time).abs() <= rounding)?;
+        Some(self.at(place))
+    }
+
     /// Forgets everything.
     pub fn clear(&mut self) {
         self.times.clear();

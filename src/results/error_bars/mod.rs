@@ -12,7 +12,7 @@ mod rows;
 pub use self::bar::{ErrorBar, Told};
 pub(super) use self::history::ComparedHistory;
 
-use self::extremes::Extremes;
+use self::extremes::{Extreme, Extremes};
 use self::rows::CollectedRows;
 use super::table::{TableKind, WriteRows};
 use super::tables::TABLES;
@@ -43,12 +43,14 @@ struct WatchedTable {
     /// Of an unseen run, and of one with a mesh that is coarser still.
     unseen: ComparedHistory,
     coarsest: ComparedHistory,
+    /// Of a pilot run.
+    pilot: ComparedHistory,
     /// The errors by the steps, by column, and the errors by the mesh; empty if they are not known.
     of_steps: Vec<Told>,
     of_mesh: Vec<Told>,
 }
 
-keep!(WatchedTable { seen, before, unseen, of_steps, of_mesh } without { kind, write, rows, coarsest });
+keep!(WatchedTable { seen, before, unseen, of_steps, of_mesh } without { kind, write, rows, coarsest, pilot });
 
 /// The numbers of one run.
 #[derive(Default)]
@@ -71,6 +73,7 @@ impl ErrorBars {
             before: Account::default(),
             unseen: ComparedHistory::default(),
             coarsest: ComparedHistory::default(),
+            pilot: ComparedHistory::default(),
             of_steps: Vec::new(),
             of_mesh: Vec::new(),
         };
@@ -112,6 +115,49 @@ impl ErrorBars {
             table.coarsest.keep(frame.state.time, rows.numbers());
         }
         Ok(())
+    }
+
+    /// Receives a frame of the run itself, a pilot run without tables.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn on_pilot(&mut self, frame: &Frame) -> io::Result<()> {
+        let time = frame.state.time;
+        for WatchedTable { write, rows, seen, .. } in &mut self.tables {
+            rows.clear();
+            write(rows, frame)?;
+            seen.largest.update(rows, time);
+            seen.history.keep(time, rows.numbers());
+        }
+        Ok(())
+    }
+
+    /// Keeps the numbers of a pilot run that may tell the errors by the steps.
+    pub fn compare_with(&mut self, pilot: &ErrorBars) {
+        for table in &mut self.tables {
+            if let Some(seen) = pilot.seen_of(table.kind) {
+                table.pilot.clone_from(&seen.history);
+            }
+        }
+    }
+
+    /// Tells the errors by the mesh from two pilot runs, the second with a coarser mesh and errors larger by this factor.
+    pub fn told_by_pilots(&mut self, [fine, coarse]: [&ErrorBars; 2], apart: f64) {
+        for table in &mut self.tables {
+            let [Some(a), Some(b)] = [fine, coarse].map(|pilot| pilot.seen_of(table.kind)) else { continue };
+            let anywhere = a.history.largest_differences(&b.history, table.rows.width(), self.rounding);
+            let told = |(column, (a, b)): (usize, (&Option<Extreme>, &Option<Extreme>))| {
+                // Rows of elements differ between meshes, but their largest numbers agree.
+                let pair = a.as_ref().zip(b.as_ref()).map(|(a, b)| [a.value.abs(), b.value.abs()]);
+                Told::by(pair, anywhere.as_ref().map(|all| all[column]), apart)
+            };
+            table.of_mesh = a.largest.0.iter().zip(&b.largest.0).enumerate().map(told).collect();
+        }
+    }
+
+    /// The numbers of a table; `None` if it is not watched.
+    fn seen_of(&self, kind: &TableKind) -> Option<&Account> {
+        self.tables.iter().find(|table| table.kind.file == kind.file).map(|table| &table.seen)
     }
 
     /// The ratio of the errors of displacements on the coarsest and the other mesh, measured by three meshes; `None` if no node is written.
@@ -203,6 +249,7 @@ impl Observer for ErrorBars {
                 Some(OtherRun::Before(apart)) => {
                     table.told_by(&table.before, &table.before.history, apart, self.rounding)
                 }
+                Some(OtherRun::Pilot(apart)) => table.told_by(&table.seen, &table.pilot, apart, self.rounding),
                 None => Vec::new(),
             };
         }
@@ -213,7 +260,7 @@ impl WatchedTable {
     /// The errors by column, estimated from the history of another run and its values at the extremes of either run.
     fn told_by(&self, compared: &Account, other: &ComparedHistory, apart: f64, rounding: f64) -> Vec<Told> {
         let anywhere = self.seen.history.largest_differences(other, self.rows.width(), rounding);
-        let told = |(column, largest): (usize, &Option<extremes::Extreme>)| {
+        let told = |(column, largest): (usize, &Option<Extreme>)| {
             let pair = largest.as_ref().and_then(|largest| Some([largest.value, largest.other?]));
             Told::by(pair, anywhere.as_ref().map(|all| all[column]), apart)
         };
@@ -223,7 +270,7 @@ impl WatchedTable {
     /// The error bars of all columns with a known error.
     fn bars(&self) -> Vec<ErrorBar> {
         let columns = self.kind.columns().skip(2).filter(|column| column.unit != Unit::Label);
-        let bar = |(index, (column, largest)): (usize, (base::quantities::Column, &Option<extremes::Extreme>))| {
+        let bar = |(index, (column, largest)): (usize, (base::quantities::Column, &Option<Extreme>))| {
             let largest = largest.as_ref()?;
             let (steps, mesh) = (self.of_steps.get(index), self.of_mesh.get(index));
             let both = |of: fn(&Told) -> Option<f64>| {

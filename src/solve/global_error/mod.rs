@@ -8,7 +8,7 @@
 mod trace;
 
 use crate::tolerances::global_error::{AIM, CHANGE, LOST, SATURATED, WITHIN};
-pub use trace::{Kept, Trace, Unseen};
+pub use trace::{Kept, LookAhead, Trace, Unseen};
 
 use crate::tolerances::trace::TELLING;
 
@@ -33,13 +33,15 @@ pub struct StepError {
     pub difference: Option<f64>,
     /// The ratio of the error of that run to the error of this one.
     pub apart: f64,
-    /// Number of runs besides the last.
+    /// Number of runs besides the last, ...
     pub others: usize,
+    /// ... of which so many have ended early.
+    pub early: usize,
     /// The effort of these.
     pub effort: Counts,
 }
 
-keep!(StepError: Default { asked, tolerance, longest, before, estimate, difference, apart, others, effort });
+keep!(StepError: Default { asked, tolerance, longest, before, estimate, difference, apart, others, early, effort });
 
 impl StepError {
     /// The record of a run with this tolerance, without an estimate yet.
@@ -53,6 +55,7 @@ impl StepError {
             difference: None,
             apart: 1.0,
             others: 0,
+            early: 0,
             effort: Counts::default(),
         }
     }
@@ -66,6 +69,12 @@ impl StepError {
         sum.factorizations += effort.factorizations;
         sum.solves += effort.solves;
         sum.cuts += effort.cuts;
+    }
+
+    /// The tolerance of a run in place of one with this predicted error.
+    pub fn in_place_of(&self, predicted: f64) -> f64 {
+        let [least, most] = CHANGE;
+        self.tolerance * (AIM * self.asked / predicted).clamp(least, most)
     }
 
     /// Estimates the error from the difference to another run. Returns the tolerance of a further run; `None` where this one is good enough,
@@ -89,9 +98,8 @@ impl StepError {
         // Two runs with nothing in common hardly show how much shorter steps must be; several such runs show that no length suffices.
         let lost = difference > SATURATED;
         let hopeless = lost && self.others > 2 && before.is_some_and(|before| estimate > 0.5 * before);
-        let [least, most] = CHANGE;
-        let factor = if lost { LOST } else { (AIM * self.asked / estimate).clamp(least, most) };
-        ((!nears || estimate > WITHIN * self.asked) && !hopeless).then_some(self.tolerance * factor)
+        let tolerance = if lost { LOST * self.tolerance } else { self.in_place_of(estimate) };
+        ((!nears || estimate > WITHIN * self.asked) && !hopeless).then_some(tolerance)
     }
 
     /// The tolerance of a further run if the comparison run failed: its steps, and maybe the steps of the run, do not follow the motion.

@@ -2,7 +2,7 @@
 
 use crate::control::{COMPARISONS, comparison_time};
 use crate::frame::{Frame, Observer};
-use crate::tolerances::trace::{EVENTFUL, FEWEST, MOST_NODES, SLOPE, TELLING, USUAL_STEPS};
+use crate::tolerances::trace::{EVENTFUL, FEWEST, FUTILE, MOST_NODES, PREDICTED_AT, SLOPE, TELLING, USUAL_STEPS};
 use base::math::Vec3;
 use base::snapshot::{Keep, Snapshot, keep};
 use model::Model;
@@ -13,6 +13,7 @@ use std::io;
 pub struct Trace<'o> {
     observer: &'o mut dyn Observer,
     kept: Kept,
+    ahead: Option<LookAhead<'o>>,
 }
 
 /// The data of a trace; the list of step ends grows with the run.
@@ -44,7 +45,17 @@ impl<'o> Trace<'o> {
     /// An empty trace in front of another observer, for a comparison between these times; the error of a step is proportional to this power
     /// of its length.
     pub fn new(observer: &'o mut dyn Observer, power: usize, between: [f64; 2]) -> Self {
-        Trace { observer, kept: Kept { power: power as i32, between, ..Kept::default() } }
+        Trace { observer, kept: Kept { power: power as i32, between, ..Kept::default() }, ahead: None }
+    }
+
+    /// The trace of a run that ends early if its difference to a pilot run predicts too large an error.
+    pub fn looking_ahead(self, ahead: Option<LookAhead<'o>>) -> Self {
+        Trace { ahead, ..self }
+    }
+
+    /// The predicted error of a run that has ended early.
+    pub fn predicted(&self) -> Option<f64> {
+        self.ahead.as_ref().and_then(|ahead| ahead.predicted)
     }
 
     /// The kept data.
@@ -53,25 +64,20 @@ impl<'o> Trace<'o> {
     }
 }
 
-/// Passes only the compared frames of a comparison run to another observer, and keeps the ends of its steps.
+/// Passes only the compared frames of a comparison run to another observer.
 pub struct Unseen<'o> {
     observer: &'o mut dyn Observer,
-    /// The ends of its steps.
-    pub ends: Vec<f64>,
 }
 
 impl<'o> Unseen<'o> {
     /// Nothing passed yet to this observer.
     pub fn new(observer: &'o mut dyn Observer) -> Self {
-        Unseen { observer, ends: Vec::with_capacity(USUAL_STEPS) }
+        Unseen { observer }
     }
 }
 
 impl Observer for Unseen<'_> {
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
-        if !frame.inside {
-            self.ends.push(frame.state.time);
-        }
         if frame.compared { self.observer.on_comparison(frame) } else { Ok(()) }
     }
 
@@ -90,8 +96,16 @@ impl Observer for Trace<'_> {
             self.kept.ends.push(frame.state.time);
             self.kept.longest = self.kept.longest.max(frame.dt);
         }
+        let seen = self.kept.times;
         self.kept.look(frame);
+        if let Some(ahead) = self.ahead.as_mut().filter(|_| self.kept.times > seen) {
+            ahead.look(&self.kept);
+        }
         self.observer.on_step(frame)
+    }
+
+    fn is_futile(&self) -> bool {
+        self.predicted().is_some()
     }
 
     fn wants_checkpoint(&mut self, at_end: bool) -> bool {
@@ -160,7 +174,13 @@ impl Kept {
 
     /// Like [`Kept::apart`], for runs without events.
     fn steps_apart(&self, other: &Kept) -> f64 {
-        let [own, theirs] = [(self, other), (other, self)].map(|(run, than)| run.own_steps(than));
+        self.steps_apart_from(&other.ends)
+    }
+
+    /// The same for another run with these ends of steps.
+    fn steps_apart_from(&self, ends: &[f64]) -> f64 {
+        let [own, theirs] =
+            [(&self.ends[..], ends), (ends, &self.ends[..])].map(|(run, than)| own_steps(run, than, self.power));
         if own.left > 0.0 { (theirs.left / own.left).powf(SLOPE) } else { 1.0 }
     }
 
@@ -171,25 +191,12 @@ impl Kept {
 
     /// True if most steps equal those of the other run, because something other than the tolerance limits them.
     pub fn has_steps_of(&self, other: &Kept) -> bool {
-        2 * self.own_steps(other).count < self.ends.len().saturating_sub(1)
+        2 * own_steps(&self.ends, &other.ends, self.power).count < self.ends.len().saturating_sub(1)
     }
 
-    /// The steps that another run has not gone.
-    fn own_steps(&self, other: &Kept) -> OwnSteps {
-        let mut own = OwnSteps { count: 0, left: 0.0 };
-        let mut at = 0;
-        for step in self.ends.windows(2) {
-            let rounding = 1e-9 * (step[1] - step[0]);
-            while other.ends.get(at).is_some_and(|time| *time < step[0] - rounding) {
-                at += 1;
-            }
-            let is = |place: usize, time: f64| other.ends.get(place).is_some_and(|end| (end - time).abs() <= rounding);
-            if !(is(at, step[0]) && is(at + 1, step[1])) {
-                own.count += 1;
-                own.left += (step[1] - step[0]).powi(self.power);
-            }
-        }
-        own
+    /// True if all times of comparison were reached.
+    pub fn is_whole(&self) -> bool {
+        self.times == COMPARISONS
     }
 
     /// The time at its end.
@@ -206,10 +213,14 @@ impl Kept {
     /// bodies. Displacements, rotations and velocities of bodies each refer to their largest value; `extent` is the length of the model,
     /// which relates translations and rotations. Infinite where a stage has stopped before there was enough to compare.
     pub fn difference(&self, other: &Kept, extent: f64) -> f64 {
-        let times = self.times.min(other.times);
-        if times < FEWEST {
-            return f64::INFINITY;
+        match self.times.min(other.times) {
+            times if times < FEWEST => f64::INFINITY,
+            times => self.difference_over(other, extent, times),
         }
+    }
+
+    /// The same over the first of the times.
+    fn difference_over(&self, other: &Kept, extent: f64, times: usize) -> f64 {
         let (displacement, rotation) = self.motion().max(other.motion());
         let (displacement, rotation) =
             (displacement.max(1e-6 * rotation * extent), rotation.max(displacement / extent));
@@ -257,6 +268,60 @@ impl Kept {
         let moved = self.displacements.iter().map(|u| u.norm()).fold(0.0, f64::max);
         Motion(moved, self.rotations.iter().map(angle).fold(0.0, f64::max))
     }
+}
+
+/// Predicts the error of a run from its first part, by the difference to a pilot run of the same scene.
+pub struct LookAhead<'o> {
+    pilot: &'o Kept,
+    /// The error asked for.
+    asked: f64,
+    /// The length of the model.
+    extent: f64,
+    /// The predicted error, if it is too large.
+    predicted: Option<f64>,
+}
+
+impl<'o> LookAhead<'o> {
+    /// Nothing predicted yet of a run whose error is to be as asked.
+    pub fn new(pilot: &'o Kept, asked: f64, extent: f64) -> Self {
+        LookAhead { pilot, asked, extent, predicted: None }
+    }
+
+    /// Judges the run at one of its times. The growth of the error so far goes on, up to that in proportion to time.
+    fn look(&mut self, run: &Kept) {
+        let LookAhead { pilot, asked, extent, .. } = *self;
+        if run.times != PREDICTED_AT {
+            return;
+        }
+        let [half, whole] = [run.times / 2, run.times].map(|times| run.difference_over(pilot, extent, times));
+        let end = run.end();
+        let ends = &pilot.ends[..pilot.ends.partition_point(|time| *time <= end)];
+        let apart = run.steps_apart_from(ends);
+        if !(apart > TELLING) || !(half > 0.0) {
+            return;
+        }
+        let growth = (whole / half).log2().clamp(0.0, 1.0);
+        let predicted = whole / (apart - 1.0) * (COMPARISONS as f64 / run.times as f64).powf(growth);
+        self.predicted = (predicted > FUTILE * asked).then_some(predicted);
+    }
+}
+
+/// The steps with these ends that another run has not gone; the error of a step is proportional to this power of its length.
+fn own_steps(ends: &[f64], other: &[f64], power: i32) -> OwnSteps {
+    let mut own = OwnSteps { count: 0, left: 0.0 };
+    let mut at = 0;
+    for step in ends.windows(2) {
+        let rounding = 1e-9 * (step[1] - step[0]);
+        while other.get(at).is_some_and(|time| *time < step[0] - rounding) {
+            at += 1;
+        }
+        let is = |place: usize, time: f64| other.get(place).is_some_and(|end| (end - time).abs() <= rounding);
+        if !(is(at, step[0]) && is(at + 1, step[1])) {
+            own.count += 1;
+            own.left += (step[1] - step[0]).powi(power);
+        }
+    }
+    own
 }
 
 /// Steps that the other run does not share: their number, and the sum of this power of their lengths.
