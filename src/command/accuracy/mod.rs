@@ -15,7 +15,7 @@ use base::diagnostic::{Diagnostic, Source};
 use contacts::{choose_stiffness, open_contacts};
 use deck::Deck;
 use load_steps::choose_load_steps;
-use mesh::choose_mesh;
+use mesh::{ChosenMesh, choose_mesh};
 use model::{Model, StepLength};
 use numbers::{rounded_down, two_digits};
 use pilot_run::PilotRun;
@@ -73,44 +73,41 @@ fn choose(loaded: &Loaded, deck: &Deck, asked: f64, (threads, stop): (usize, &At
     let mut pilots = Pilots { source, deck, model, tolerance: asked, threads, stop, ends: Vec::new(), runs, effort };
     let report = ReportedAccuracy { asked, ..ReportedAccuracy::default() };
     let mut chosen = ChosenSettings { report, coarser: None, pilots: [None, None] };
+    let (groups, fixed) = mesh_groups(deck, model);
+    let open = open_contacts(&pilots);
+    let shares = Shares::new(asked, model, &groups, !open.is_empty());
     let report = &mut chosen.report;
-    match pilots.run(&[]) {
-        Ok(observed) => {
-            let (groups, fixed) = mesh_groups(deck, model);
-            let open = open_contacts(&pilots);
-            let shares = Shares::new(asked, model, &groups, !open.is_empty());
-            report.remarks.extend((!fixed.is_empty()).then(|| super::mesh_error::of_file(&fixed)));
-            report.remarks.extend(model.reductions.iter().map(|reduction| {
-                format!(
-                    "the error of the modes of {} is not known. Compare with a run with more modes in `reduced`",
-                    reduction.title
-                )
-            }));
-            let has_mesh = !groups.is_empty();
-            let mut mesh = choose_mesh(&mut pilots, groups, shares.mesh, observed);
-            (report.mesh, report.settings) = (mesh.error.filter(|_| has_mesh && fixed.is_empty()), mesh.sets);
-            report.remarks.append(&mut mesh.remarks);
-            if !open.is_empty() {
-                let stiff = choose_stiffness(&mut pilots, (&report.settings, &mesh.observed), &open, shares.contacts);
-                report.contact = stiff.error;
-                report.remarks.extend(stiff.remarks);
-                report.settings.extend(stiff.sets);
+    report.remarks.extend((!fixed.is_empty()).then(|| super::mesh_error::of_file(&fixed)));
+    report.remarks.extend(model.reductions.iter().map(|reduction| {
+        format!(
+            "the error of the modes of {} is not known. Compare with a run with more modes in `reduced`",
+            reduction.title
+        )
+    }));
+    let is_mesh_known = !groups.is_empty() && fixed.is_empty();
+    // Steps across kinks differ from run to run: a pilot run would tell nothing of the last one.
+    if pilots.is_automatic() && groups.is_empty() && open.is_empty() && pilots.has_kinks() {
+        leave_to_steps(&pilots, report, &shares);
+    } else {
+        match pilots.run(&[]) {
+            Ok(observed) => {
+                let mut mesh = choose_mesh(&mut pilots, groups, shares.mesh, observed);
+                report.mesh = mesh.error.filter(|_| is_mesh_known);
+                report.settings.append(&mut mesh.sets);
+                report.remarks.append(&mut mesh.remarks);
+                if !open.is_empty() {
+                    let with_mesh = (&report.settings[..], &mesh.observed);
+                    let stiff = choose_stiffness(&mut pilots, with_mesh, &open, shares.contacts);
+                    report.contact = stiff.error;
+                    report.remarks.extend(stiff.remarks);
+                    report.settings.extend(stiff.sets);
+                }
+                choose_steps(&mut pilots, report, &mesh.observed, &shares);
+                chosen.keep_pilots(&mut pilots, mesh);
             }
-            choose_steps(&mut pilots, report, &mesh.observed, &shares);
-            if pilots.is_automatic() {
-                let run = |(coarser, run): (CoarserMesh, Option<PilotRun>)| {
-                    let sets = [&report.settings[..], &coarser.sets].concat();
-                    let run = run.or_else(|| pilots.run(&sets).ok());
-                    (coarser, run)
-                };
-                let (coarser, run) = mesh.coarser.map(run).unzip();
-                (chosen.coarser, chosen.pilots) = (coarser, [Some(mesh.observed), run.flatten()]);
-            } else {
-                chosen.coarser = mesh.coarser.map(|(coarser, _)| coarser);
-            }
-        }
-        Err(reason) => {
-            report.remarks.push(format!("no setting was changed: {reason}. Run the deck without `accuracy` first"))
+            Err(reason) => report
+                .remarks
+                .push(format!("no setting was changed: {reason}. Run the deck without `accuracy` first")),
         }
     }
     let report = &mut chosen.report;
@@ -120,30 +117,29 @@ fn choose(loaded: &Loaded, deck: &Deck, asked: f64, (threads, stop): (usize, &At
     chosen
 }
 
-/// Leaves the rest of the error to automatic steps, or chooses load steps.
-fn choose_steps(
-    pilots: &mut Pilots,
-    report: &mut ReportedAccuracy,
-    observed: &PilotRun,
-    shares: &Shares,
-) {
-    if pilots.is_automatic() {
-        let rest = report.asked - report.mesh.unwrap_or(0.0) - report.contact.unwrap_or(0.0);
-        let tolerance = shares.given.unwrap_or(rest.max(shares.steps));
-        report.steps = Some(tolerance);
-        if pilots.deck.analysis.as_ref().is_some_and(|analysis| analysis.time_step.is_none()) {
-            report.settings.push("analysis.time_step=\"auto\"".to_owned());
-        }
-        report.settings.push(format!("analysis.error_tolerance={}", rounded_down(tolerance)));
-    } else {
-        // The results with stiffer contacts are those to compare with.
-        let again = report.settings.iter().any(|set| set.contains(".stiffness=")).then(|| pilots.run(&report.settings));
-        let observed = again.as_ref().and_then(|run| run.as_ref().ok()).unwrap_or(observed);
-        let chosen = choose_load_steps(pilots, (&report.settings, observed), shares.steps);
-        report.load_steps = chosen.error;
-        report.remarks.extend(chosen.remarks);
-        report.settings.extend(chosen.set);
+/// Leaves the rest of the error to automatic steps.
+fn leave_to_steps(pilots: &Pilots, report: &mut ReportedAccuracy, shares: &Shares) {
+    let rest = report.asked - report.mesh.unwrap_or(0.0) - report.contact.unwrap_or(0.0);
+    let tolerance = shares.given.unwrap_or(rest.max(shares.steps));
+    report.steps = Some(tolerance);
+    if pilots.deck.analysis.as_ref().is_some_and(|analysis| analysis.time_step.is_none()) {
+        report.settings.push("analysis.time_step=\"auto\"".to_owned());
     }
+    report.settings.push(format!("analysis.error_tolerance={}", rounded_down(tolerance)));
+}
+
+/// Leaves the rest of the error to automatic steps, or chooses load steps.
+fn choose_steps(pilots: &mut Pilots, report: &mut ReportedAccuracy, observed: &PilotRun, shares: &Shares) {
+    if pilots.is_automatic() {
+        return leave_to_steps(pilots, report, shares);
+    }
+    // The results with stiffer contacts are those to compare with.
+    let again = report.settings.iter().any(|set| set.contains(".stiffness=")).then(|| pilots.run(&report.settings));
+    let observed = again.as_ref().and_then(|run| run.as_ref().ok()).unwrap_or(observed);
+    let chosen = choose_load_steps(pilots, (&report.settings, observed), shares.steps);
+    report.load_steps = chosen.error;
+    report.remarks.extend(chosen.remarks);
+    report.settings.extend(chosen.set);
 }
 
 /// The parts of the error.
@@ -178,6 +174,19 @@ impl Shares {
 }
 
 impl ChosenSettings {
+    /// Keeps the pilot runs with the chosen mesh and a coarser one. In statics a run with the coarser mesh follows the last run.
+    fn keep_pilots(&mut self, pilots: &mut Pilots, mesh: ChosenMesh) {
+        let Some((coarser, run)) = mesh.coarser else {
+            self.pilots[0] = pilots.is_automatic().then_some(mesh.observed);
+            return;
+        };
+        if pilots.is_automatic() {
+            let sets = [&self.report.settings[..], &coarser.sets].concat();
+            self.pilots = [Some(mesh.observed), run.or_else(|| pilots.run(&sets).ok())];
+        }
+        self.coarser = Some(coarser);
+    }
+
     /// Lets the pilot run with the chosen mesh tell the errors of the steps of a run.
     pub fn tell_steps(&self, run: &mut Run, bars: Option<&mut ErrorBars>, expectations: &mut Expectations) {
         let [Some(PilotRun { motion: Some(motion), numbers: Some((of_tables, of_values)), .. }), _] = &self.pilots else {

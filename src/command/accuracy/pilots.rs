@@ -9,6 +9,7 @@ use results::observed::RunDifference;
 use results::wanted;
 use solve::plan::Plan;
 use solve::system::System;
+use solve::system::kinks::has_kinks;
 use solve::{Counts, Outcome, Run, StepError, comparison_times};
 use std::sync::atomic::AtomicBool;
 
@@ -46,6 +47,11 @@ impl Pilots<'_> {
     /// True if the deck has automatic steps.
     pub fn is_automatic(&self) -> bool {
         matches!(self.model.analysis.step_length, StepLength::ErrorControlled { .. })
+    }
+
+    /// True if forces may have kinks, such as at contact, yield and failure.
+    pub fn has_kinks(&self) -> bool {
+        System::new(self.model).is_ok_and(|system| has_kinks(&system))
     }
 
     /// The results of the deck with these overrides.
