@@ -114,6 +114,31 @@ fn pilot_runs_share_long_steps() {
     assert!(of_pilots < 0.4 * number("/counts/steps"), "{of_pilots}");
 }
 
+/// The pilot run with the chosen mesh tells the error of the steps, and the one with the mesh before tells that of the mesh. Comparison runs and a
+/// run with a coarser mesh took 0.4 of all iterations.
+#[test]
+fn pilot_runs_tell_the_errors_of_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let beam = deck("flying_beam");
+    let sets = ["analysis.accuracy=1e-2", "analysis.time_step=auto", "integrator={scheme=\"esdirk3\"}"];
+    let mesh = ["beams.rod.elements=1", "beams.rod.order=2", "output.energy=false"];
+    let expected = "expect=[{ at = \"a\", quantity = \"ux\", time = 5.0, value = 0.0, absolute_tolerance = 9.0 }]";
+    let ran = rdsolve(folder.path(), &with("run", &beam, &[&sets[..], &mesh, &[expected]].concat()));
+    assert!(ran.status.success(), "{}", text(&ran.stderr));
+    let result = result(folder.path());
+    let number =
+        |path: &str| result.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("{path}: {result}"));
+    assert_eq!(number("/mesh/steps"), 0.0, "{result}");
+    assert!(number("/step_error/estimate") <= 1.5 * number("/step_error/asked"), "{result}");
+    for path in ["/expectations/0/step_error", "/expectations/0/mesh_error"] {
+        assert!(number(path) > 0.0 && number(path) < 2.0, "{path}: {result}");
+    }
+    let bars = result["error_bars"].as_array().unwrap();
+    let of_nodes = bars.iter().filter(|bar| bar["table"] == "nodes.csv").collect::<Vec<_>>();
+    assert!(!of_nodes.is_empty(), "{result}");
+    assert!(of_nodes.iter().all(|bar| bar["step_error"].is_number() && bar["mesh_error"].is_number()), "{of_nodes:?}");
+}
+
 /// A stiffness that the deck leaves open is raised until the penetration hardly matters; the values are those of a rigid stop.
 #[test]
 fn open_contacts_become_stiffer() {

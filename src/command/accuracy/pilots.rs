@@ -9,7 +9,6 @@ use results::observed::RunDifference;
 use results::wanted;
 use solve::plan::Plan;
 use solve::system::System;
-use solve::system::kinks::has_kinks;
 use solve::{Counts, Outcome, Run, StepError, comparison_times};
 use std::sync::atomic::AtomicBool;
 
@@ -20,6 +19,8 @@ const LOOSEST: f64 = 0.05;
 /// Ratio of the tolerances of later runs and the first. These runs take the steps of the first one and shorten only steps with four times its
 /// error.
 const SLACK: f64 = 4.0;
+/// The longest step of these runs, as a part of the duration: twice that of the last run, which would otherwise have the same steps.
+const LONGEST: f64 = 0.04;
 /// Largest number of times of comparison of a static analysis.
 const LOAD_TIMES: usize = 32;
 
@@ -47,11 +48,6 @@ impl Pilots<'_> {
     /// True if the deck has automatic steps.
     pub fn is_automatic(&self) -> bool {
         matches!(self.model.analysis.step_length, StepLength::ErrorControlled { .. })
-    }
-
-    /// True if forces may have kinks, such as at contact, yield and failure.
-    pub fn has_kinks(&self) -> bool {
-        System::new(self.model).is_ok_and(|system| has_kinks(&system))
     }
 
     /// The results of the deck with these overrides.
@@ -95,7 +91,8 @@ impl Pilots<'_> {
     /// The tolerance of steps that runs share, with the iteration as for the error asked for.
     fn with_shared_steps(&self, like: StepError) -> StepError {
         let loose = (LOOSER * self.tolerance).min(LOOSEST.max(self.tolerance));
-        StepError { tolerance: if self.ends.is_empty() { loose } else { SLACK * loose }, ..like }
+        let longest = Some(LONGEST * self.model.analysis.duration());
+        StepError { tolerance: if self.ends.is_empty() { loose } else { SLACK * loose }, longest, ..like }
     }
 
     /// The difference between the results of a run and those of a coarser one.
