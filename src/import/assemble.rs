@@ -8,8 +8,8 @@ use crate::tied_nodes::TiedNodes;
 use crate::timeline::Timeline;
 use crate::{
     base_motion, bodies, contacts, distributing, equations, harmonics, joints, links, loads, material_cards, mesh_text,
-    nodal_axes, output, parts, pretension, property_cards, spread_loads, stage_text, supports, surface_ties,
-    temperatures, ties,
+    nodal_axes, output, parts, pretension, property_cards, single_loads, spread_loads, stage_text, supports,
+    surface_ties, temperatures, ties,
 };
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -27,6 +27,7 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
     let (mesh, faults) = FlatMesh::new(&im.scopes);
     faults.iter().for_each(|(line, why)| im.refuse(*line, why));
     loads::drop_those_of_modes(im);
+    single_loads::join(im, &mesh);
     harmonics::prepare(im);
     material_cards::say_expansions(im);
     property_cards::refuse_turned_axes(im);

@@ -33,7 +33,10 @@ impl Build<'_, '_, '_> {
                 let amplitude = Some(self.amplitude("constant", table));
                 return TimeLaw { scale: given.value, amplitude, stages };
             }
-            if let Some(name) = given.amplitude.clone().filter(|_| self.timeline.general.len() == 1) {
+            let is_alone = self.timeline.general.len() == 1;
+            // The deck counts times from the start of the run too.
+            let holds = |name: &String| is_alone || first == 0 && self.is_total(name);
+            if let Some(name) = given.amplitude.clone().filter(holds) {
                 let scale = given.value * self.over_sine(&name);
                 return TimeLaw { scale, amplitude: self.amplitude_of_file(&name, given.line), stages };
             }
@@ -140,6 +143,12 @@ impl Build<'_, '_, '_> {
         let count = if self.timeline.is_staged() { self.timeline.stages.len() } else { 0 };
         let stages = (0..count).filter(|at| is_own(*at)).map(|at| &self.timeline.stages[at]);
         stages.map(|stage| (stage.name.clone(), stage.step)).collect()
+    }
+
+    /// True for an amplitude whose times count from the start of the run.
+    fn is_total(&self, name: &str) -> bool {
+        let card = self.im.amplitudes.iter().rfind(|card| card.name.to_lowercase() == name.to_lowercase());
+        card.is_some_and(|card| card.is_total)
     }
 
     /// The largest value of a sine of the file, which is 1 in the deck; 1 for other amplitudes.

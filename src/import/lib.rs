@@ -50,6 +50,7 @@ mod robot;
 mod robot_deck;
 mod scopes;
 mod section_cards;
+mod single_loads;
 mod spread_loads;
 mod stage_text;
 mod step_cards;

@@ -167,9 +167,15 @@ fn shape_of(build: &mut Build, cell: &PlacedElement, card: &SectionCard, becomes
         );
         return None;
     }
-    let SectionOf::Beam { n1, offset, .. } = &card.what else {
+    let SectionOf::Beam { n1, offset, keys } = &card.what else {
         return Some((if becomes == ElementUse::Face { 4 } else { 3 }, Vec3::zeros()));
     };
+    let yields = build.im.materials.find(&card.material).is_some_and(|material| !material.plastic.is_empty());
+    if yields && keys.contains(&("shape", SectionValue::Word("general"))) {
+        let why = "this section is known by its integrals alone, and stays elastic: leave *PLASTIC out, or give RECT, CIRC, PIPE, BOX, I or L";
+        build.im.refuse(card.line, why);
+        return None;
+    }
     let turned =
         cell.instance.and_then(|at| build.im.scopes.instances[at].turn.as_ref()).map_or(*n1, |(_, turn)| turn * n1);
     let last = count - 1;

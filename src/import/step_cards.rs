@@ -3,10 +3,8 @@
 use crate::file_content::{ForceLine, SpreadLine, StepCard, StepProcedure, SupportLine};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
-use crate::scopes::{Members, NamedTarget};
 use crate::temperatures;
 use base::text_file::cards::{Data, Keyword, name_in};
-use std::collections::{BTreeMap, BTreeSet};
 
 /// Why a line that acts in a step is refused outside of all steps.
 const NO_STEP: &str = "no *STEP is open at this line";
@@ -272,7 +270,6 @@ fn spread(im: &mut Importer, block: &KeywordBlock, is_surface: bool) {
     let amplitude = block.keyword.value("AMPLITUDE").map(str::to_owned);
     let is_imaginary = is_imaginary(&block.keyword);
     let is_fixed = block.keyword.value("FOLLOWER").is_some_and(|word| word.eq_ignore_ascii_case("NO"));
-    let mut loads = Vec::new();
     for data in block.data.iter().filter(|data| data.filled() > 0) {
         let Some(kind) = data.words.get(1).map(name_in) else {
             im.refuse(data.line, "this line needs the kind of the load");
@@ -281,40 +278,8 @@ fn spread(im: &mut Importer, block: &KeywordBlock, is_surface: bool) {
         let values = (2..data.filled()).map(|at| im.number_at(data, at).unwrap_or(0.0)).collect();
         let (target, amplitude, kind) = (im.target(&data.words[0]), amplitude.clone(), kind.to_ascii_uppercase());
         let load = SpreadLine { line: data.line, target, is_surface, kind, values, is_imaginary, is_fixed, amplitude };
-        loads.push(load);
+        im.steps.at_hand().spread.push(load);
     }
-    let loads = if is_surface { loads } else { together(im, loads) };
-    im.steps.at_hand().spread.extend(loads);
-}
-
-/// Puts single elements with one load into a set: pre-processors write a line for each element.
-fn together(im: &mut Importer, loads: Vec<SpreadLine>) -> Vec<SpreadLine> {
-    let mut alike: BTreeMap<String, Vec<SpreadLine>> = BTreeMap::new();
-    let (single, mut all): (Vec<_>, Vec<_>) =
-        loads.into_iter().partition(|load| load.target.name.parse::<u64>().is_ok());
-    for load in single {
-        alike.entry(format!("{} {:?}", load.kind, load.values)).or_default().push(load);
-    }
-    for loads in alike.into_values() {
-        let names: BTreeSet<&str> = loads.iter().map(|load| load.target.name.as_str()).collect();
-        if names.len() < 2 || names.len() < loads.len() {
-            all.extend(loads);
-            continue;
-        }
-        let cells: Vec<u64> =
-            loads.iter().filter_map(|load| im.scopes.members(&load.target, Members::Cells)).flatten().collect();
-        // The same elements have the same name in each step: Fowler, Noll and Vo's sum of their numbers.
-        let sum = names.iter().flat_map(|name| name.bytes().chain([b',']));
-        let sum =
-            sum.fold(0xcbf2_9ce4_8422_2325_u64, |sum, byte| (sum ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3));
-        let name = format!("_elements_{sum:x}");
-        im.scopes.here().cell_sets.place(&name).splice(.., cells);
-        let mut load = loads[0].clone();
-        load.target = NamedTarget { name, is_set: true, ..load.target };
-        all.push(load);
-    }
-    all.sort_by_key(|load| load.line);
-    all
 }
 
 /// `*INITIAL CONDITIONS`.

@@ -65,6 +65,8 @@ pub struct Verdicts {
     known: HashSet<(Option<usize>, KeywordVerdict, String)>,
     /// The keywords with a verdict.
     judged: HashSet<Option<usize>>,
+    /// Those that are refused.
+    refused: HashSet<Option<usize>>,
 }
 
 impl Verdicts {
@@ -85,6 +87,9 @@ impl Verdicts {
             return;
         }
         self.judged.insert(of);
+        if verdict == KeywordVerdict::Refused {
+            self.refused.insert(of);
+        }
         let keyword = of.map_or_else(String::new, |of| self.keywords[of].1.clone());
         let (file, file_line) = text.origin(line);
         let severe = verdict >= KeywordVerdict::Changed;
@@ -112,8 +117,7 @@ impl Verdicts {
 
     /// True where a keyword is refused; `line`: its own.
     pub fn is_refused(&self, line: usize) -> bool {
-        let of = self.keyword(line);
-        self.known.iter().any(|(known, verdict, _)| *known == of && *verdict == KeywordVerdict::Refused)
+        self.refused.contains(&self.keyword(line))
     }
 
     /// The number of rows with a verdict.

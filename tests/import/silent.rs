@@ -97,7 +97,10 @@ fn amplitudes() {
     has(&total, &[], None, "points = [[0.0, 0.0], [1.0, 2.0]]\n");
     // In a second step, to t = 2, the load goes on along the amplitude: from 10 to 20.
     let longer = with(", TIME=TOTAL TIME\n0., 0., 2., 4.");
-    has(&longer, &[("*END STEP\n", &second)], None, "points = [[0.0, 0.0], [1.0, 0.5], [2.0, 1.0]]\n");
+    has(&longer, &[("*END STEP\n", &second)], None, "points = [[0.0, 0.0], [2.0, 4.0]]\n");
+    // So does a sine, however many its periods are.
+    let sine = with(", DEFINITION=PERIODIC, TIME=TOTAL TIME\n1, 314.1592653589793, 0., 0.\n0., 2.");
+    has(&sine, &[("*END STEP\n", &second)], None, "kind = \"sine\"\nfrequency = 50.0\nphase = 0.0\n");
     has(&with(", TIME DELAY=1.\n0., 0., 1., 2."), &[], None, "points = [[1.0, 0.0], [2.0, 2.0]]\n");
     let unknown = [("*CLOAD", "*CLOAD, AMPLITUDE=B"), ("*END STEP\n", &second)];
     refuses(BEAM, &unknown, "no amplitude is named `B`");

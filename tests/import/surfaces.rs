@@ -155,6 +155,22 @@ fn loads_of_single_elements() {
     has(&one, &[], None, "[[loads]]\npart = \"skin\"\npressure = -8.0\n");
     let two = format!("{one}*STEP, NLGEOM\n*STATIC\n0.5, 1.\n*DLOAD\n2, P, 4.\n1, P, 4.\n*END STEP\n");
     has(&two, &[], None, "points = [[0.0, 0.0], [1.0, 1.0], [2.0, 0.5]]\n");
+    // A later step that loads one of them alone, or both otherwise, has two loads: one of 8, and one of 8 that becomes 4.
+    for loads in ["2, P, 4.", "1, P, 8.\n2, P, 4."] {
+        let later = format!("{one}*STEP, NLGEOM\n*STATIC\n0.5, 1.\n*DLOAD\n{loads}\n*END STEP\n");
+        let made = imported(&later);
+        assert_eq!(refusals(&made), [""; 0]);
+        assert_eq!(tables(&made.deck).matches("[[loads]]").count(), 2, "{}", made.deck);
+        assert!(made.deck.contains("[0.0, 0.0], [1.0, 1.0], [2.0, 0.5]"), "{}", made.deck);
+    }
+    // Three of which two are given again: a set of two, and one element.
+    let three = one
+        .replace("2, 4, 3, 6, 5\n", "2, 4, 3, 6, 5\n3, 5, 6, 8, 7\n")
+        .replace("6, 1., 3., 0.\n", "6, 1., 3., 0.\n7, 0., 4., 0.\n8, 1., 4., 0.\n");
+    let three = three.replace("2, P, 8.", "2, P, 8.\n3, P, 8.");
+    let made = imported(&format!("{three}*STEP, NLGEOM\n*STATIC\n0.5, 1.\n*DLOAD\n1, P, 4.\n2, P, 4.\n*END STEP\n"));
+    assert_eq!(refusals(&made), [""; 0]);
+    assert_eq!(tables(&made.deck).matches("[[loads]]").count(), 2, "{}", made.deck);
     let made = imported(&one.replace("2, P, 8.", "2, P, 9."));
     assert_eq!(tables(&made.deck).matches("[[loads]]").count(), 2, "{}", made.deck);
 }
