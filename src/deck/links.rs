@@ -40,6 +40,8 @@ pub struct Link {
     /// symmetric, each line less steep than the one before, and constant after the last. Unloading follows it twice as large. (yielding)
     /// Of pinching, up to 3 points, which may fall; beyond the last the force is constant.
     pub backbone: Maybe<Vec<At<Numbers<2>>>>,
+    /// How yielding in one sense changes that in the other. Default: "kinematic". (yielding)
+    pub hardening: Maybe<LinkHardening>,
     /// How sharp the knee at yielding is, 1 or more. Default: 2. (bouc-wen)
     pub exponent: Maybe<f64>,
     /// Share of the unloading term, 0.5 to 1: 0.5 unloads along the first slope, more bulges. Default: 0.5. (bouc-wen)
@@ -155,6 +157,17 @@ pub struct End {
     pub ground: Maybe<Vector>,
 }
 
+/// Hardening of a link that yields.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LinkHardening {
+    /// Unloading follows the backbone twice as large.
+    #[default]
+    Kinematic,
+    /// The yield force grows with the plastic path, in both senses alike.
+    Isotropic,
+}
+
 /// The law of the force over the elongation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -167,7 +180,7 @@ pub enum LinkLaw {
     CompressionOnly,
     /// Linear when lengthened by more than the gap, otherwise without force: a rope.
     TensionOnly,
-    /// Straight lines with kinematic hardening: a yielding damper, an isolator, a moment connection.
+    /// Straight lines with hardening: a yielding damper, an isolator, a moment connection.
     Yielding,
     /// The smooth hysteresis of Bouc and Wen, with loss of strength and stiffness: an isolator, a wire rope, a wall.
     BoucWen,

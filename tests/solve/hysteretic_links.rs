@@ -35,6 +35,26 @@ fn cycles_of_straight_lines_by_hand() {
     assert!((at(2.75)[1] / (2e3 + 1e5 * 3e-3) + 1.0).abs() < 1e-9);
 }
 
+/// Isotropic hardening: the yield force grows by H = k k₂/(k − k₂) times the plastic path, in both senses. Each half cycle begins from the
+/// peak before it.
+#[test]
+fn cycles_of_isotropic_hardening_by_hand() {
+    let found = rows(&cycles("law = \"yielding\"\nhardening = \"isotropic\""));
+    let at = |time: f64| found.iter().find(|row| (row[0] - time).abs() < 1e-9).expect("a row");
+    let (k, H) = (1e6, 1e6 * 1e5 / 9e5);
+    let (mut force, mut sense, mut dissipated, mut q) = (2e3, 1.0, 0.0, 0.0);
+    let mut effort = 0.0;
+    for (time, next) in [(0.25, 5e-3), (0.75, -5e-3), (1.25, 5e-3), (1.75, -5e-3), (2.25, 5e-3)] {
+        // |F + k Δq| − k a = F_y + H a
+        let path = (k * (next - q) * sense + effort * sense - force) / (k + H);
+        dissipated += path * (force + 0.5 * H * path);
+        force += H * path;
+        (effort, q, sense) = (force * sense, next, -sense);
+        assert!((at(time)[1] / effort - 1.0).abs() < 1e-9, "{:?} {effort}", at(time));
+        assert!((at(time)[2] / dissipated - 1.0).abs() < 1e-9, "{:?} {dissipated}", at(time));
+    }
+}
+
 /// The smooth law comes near the lines with a sharp knee; with n = 1 and b = ½ its loop has the force that exponentials give.
 #[test]
 fn cycles_of_the_smooth_law() {

@@ -15,6 +15,7 @@ pub mod heat;
 pub mod hysteresis;
 pub mod hysteretic_link;
 pub mod isolator;
+pub mod isotropic;
 pub mod link;
 pub mod link_failure;
 pub mod memories;

@@ -3,6 +3,7 @@
 use super::bouc_wen::{self, BoucWen, BoucWenState};
 use super::deteriorating::{self, Deteriorating, DeterioratingState};
 use super::hysteresis::Hysteresis;
+use super::isotropic::{self, Isotropic};
 use super::pinching::{self, Pinching, PinchingState};
 use super::slider::CoordinateState;
 
@@ -11,6 +12,8 @@ use super::slider::CoordinateState;
 pub enum PathLaw {
     /// Springs that slip side by side: straight lines, unloading by twice the backbone.
     Backbone(Hysteresis),
+    /// Straight lines with a yield force that grows in both senses.
+    Isotropic(Isotropic),
     /// Bouc and Wen.
     BoucWen(BoucWen),
     /// Ibarra, Medina and Krawinkler.
@@ -24,6 +27,7 @@ impl PathLaw {
     pub fn stiffness(&self) -> f64 {
         match self {
             PathLaw::Backbone(backbone) => backbone.stiffness(),
+            PathLaw::Isotropic(law) => law.stiffness,
             PathLaw::BoucWen(law) => law.stiffness,
             PathLaw::Deteriorating(law) => law.stiffness,
             PathLaw::Pinching(law) => law.stiffness(),
@@ -34,6 +38,7 @@ impl PathLaw {
     pub fn memory(&self) -> usize {
         match self {
             PathLaw::Backbone(backbone) => backbone.memory(),
+            PathLaw::Isotropic(_) => isotropic::MEMORY,
             PathLaw::BoucWen(_) => bouc_wen::MEMORY,
             PathLaw::Deteriorating(_) => deteriorating::MEMORY,
             PathLaw::Pinching(_) => pinching::MEMORY,
@@ -44,6 +49,7 @@ impl PathLaw {
     pub fn add(&self, memory: &[f64], state: &mut CoordinateState) {
         let [force, slope, energy] = match self {
             PathLaw::Backbone(backbone) => return backbone.add(memory, state),
+            PathLaw::Isotropic(law) => return law.add(memory, state),
             PathLaw::BoucWen(law) => {
                 let from = BoucWenState::of(memory);
                 let [force, slope] = law.force(&from, state.q);
@@ -69,6 +75,7 @@ impl PathLaw {
         let memory = &mut memory[..self.memory()];
         match self {
             PathLaw::Backbone(backbone) => backbone.follow(q, part, memory),
+            PathLaw::Isotropic(law) => law.follow(q, part, memory),
             PathLaw::BoucWen(law) => {
                 let from = BoucWenState::of(memory);
                 let to = law.moved(&from, towards(from.x));

@@ -10,6 +10,7 @@ use mechanics::elements::bouc_wen::BoucWen;
 use mechanics::elements::deteriorating::Deteriorating;
 use mechanics::elements::hysteresis::Hysteresis;
 use mechanics::elements::hysteretic_link::PathLaw;
+use mechanics::elements::isotropic::Isotropic;
 use mechanics::elements::pinching::{Pinching, Reloading};
 
 /// What the deck gives.
@@ -26,7 +27,7 @@ pub enum GivenLaw {
 /// The keys of these laws alone.
 pub fn keys(link: &words::Link) -> Vec<(&'static str, Option<&Span>)> {
     let yielding = keys!(
-        link; yield_force, post_yield_stiffness, backbone, exponent, unloading, strength_loss, stiffness_loss, deterioration, pinching
+        link; yield_force, post_yield_stiffness, backbone, hardening, exponent, unloading, strength_loss, stiffness_loss, deterioration, pinching
     );
     yielding.into_iter().collect()
 }
@@ -78,8 +79,12 @@ fn yielding<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d
             (vec![[force / stiffness, force]], after, owner.span)
         }
     };
-    match Hysteresis::new(&points, after) {
-        Ok(law) => Some(PathLaw::Backbone(law)),
+    let made = match link.hardening.as_ref().map(|hardening| hardening.value) {
+        Some(words::LinkHardening::Isotropic) => Isotropic::new(&points, after).map(PathLaw::Isotropic),
+        _ => Hysteresis::new(&points, after).map(PathLaw::Backbone),
+    };
+    match made {
+        Ok(law) => Some(law),
         Err(reason) => {
             let hint = "give points such as [[0.01, 1e4], [0.05, 1.2e4]]";
             report.error_with(place, format!("the backbone of {}: {reason}", owner.what), hint)
@@ -89,7 +94,8 @@ fn yielding<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d
 
 fn ibarra_medina_krawinkler<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) -> Option<PathLaw> {
     let others = keys!(
-        link; gap, preload, points, failure, backbone, exponent, unloading, strength_loss, stiffness_loss, pinching
+        link; gap, preload, points, failure, backbone, hardening, exponent, unloading, strength_loss, stiffness_loss,
+        pinching
     );
     report.reject_unused("the law \"ibarra-medina-krawinkler\"", &others);
     let given = elastic_and_yield(owner, link, report);
@@ -140,7 +146,7 @@ pub fn deteriorating<'d>(
 
 fn pinched<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) -> Option<PathLaw> {
     let others = keys!(
-        link; gap, preload, points, failure, stiffness, yield_force, post_yield_stiffness, exponent, unloading,
+        link; gap, preload, points, failure, stiffness, yield_force, post_yield_stiffness, hardening, exponent, unloading,
         strength_loss, stiffness_loss, deterioration
     );
     report.reject_unused("the law \"pinching\"", &others);
@@ -181,7 +187,7 @@ pub fn pinching<'d>(
 fn bouc_wen<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) -> Option<PathLaw> {
     report.reject_unused(
         "the law \"bouc-wen\"",
-        &keys!(link; gap, preload, points, failure, backbone, deterioration, pinching),
+        &keys!(link; gap, preload, points, failure, backbone, hardening, deterioration, pinching),
     );
     let given = elastic_and_yield(owner, link, report);
     let mut within = |key: &str, value: &deck::words::Maybe<f64>, [low, high]: [f64; 2], default: f64| match value {
