@@ -31,6 +31,7 @@ pub mod mesh;
 pub mod number_slips;
 pub mod output;
 pub mod part_damping;
+pub mod part_sets;
 pub mod part_table;
 pub mod parts;
 mod profile_sizes;
@@ -101,6 +102,9 @@ pub struct Deck {
     /// Superelements: parts by matrices from files.
     #[serde(default)]
     pub superelements: Vec<At<Table<superelements::Superelement>>>,
+    /// Beams and shells that are reduced together.
+    #[serde(default, rename = "parts")]
+    pub part_sets: Vec<At<Table<part_sets::PartSet>>>,
     /// Rigid bodies.
     #[serde(default)]
     pub bodies: Vec<At<Table<bodies::Body>>>,

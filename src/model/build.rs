@@ -522,7 +522,7 @@ fn with_arc_length(
 }
 
 /// Completes the model with data of the whole: the scheme of automatic steps, stable steps, unused nodes, and the list of nodes.
-fn finish(mut model: Model, all_nodes: bool, deck: &Deck, report: &mut Report) -> Model {
+fn finish<'d>(mut model: Model, all_nodes: bool, deck: &'d Deck, report: &mut Report<'d>) -> Model {
     if deck.integrator.is_none() && matches!(model.analysis.step_length, StepLength::ErrorControlled { .. }) {
         model.solution.scheme = choose_scheme(&model);
         model.solution.scheme_is_chosen = true;

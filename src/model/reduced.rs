@@ -1,4 +1,4 @@
-//! `reduced` of beams and shells: the interface of the part with the rest of the scene, and the scenes that are refused.
+//! `reduced` of beams and shells, one by one or as `[[parts]]`: their interface with the rest of the scene, and the scenes that are refused.
 //!
 //! Points of the deck belong to the interface. So do nodes of other parts, bodies, joints, supports, point loads, dampers and stops. Spread loads
 //! and weight act on inner nodes by the shapes. Outputs and expected values follow from these as well.
@@ -19,18 +19,76 @@ const MODES: usize = 20;
 /// Most modes of a part: their matrices are full.
 const MOST: usize = 500;
 
+/// Parts of the deck that are reduced together, one or several.
+struct Asked<'d> {
+    /// The deck's name.
+    name: String,
+    /// In words, like "shell `roof`".
+    title: String,
+    parts: Vec<DeckPart<'d>>,
+    extent: &'d At<NumberOrTable<Table<ReducedTable>>>,
+}
+
 /// Lists the reduced parts of a model, with a node for each amplitude.
-pub(super) fn reductions(model: &mut Model, deck: &Deck, report: &mut Report) {
-    let asked: Vec<DeckPart> = deck.parts().filter(|part| part.table.reduced().is_some()).collect();
+pub(super) fn reductions<'d>(model: &mut Model, deck: &'d Deck, report: &mut Report<'d>) {
+    let of_part = |part: DeckPart<'d>| {
+        let extent = part.table.reduced()?;
+        Some(Asked { name: part.label(), title: part.title(), parts: vec![part], extent })
+    };
+    let mut asked: Vec<Asked> = deck.parts().filter_map(of_part).collect();
+    for index in 0..deck.part_sets.len() {
+        if let Some(set) = part_set(deck, index, &asked, report) {
+            asked.push(set);
+        }
+    }
     if asked.is_empty() {
         return;
     }
     let acting = acting_nodes(model);
-    for part in asked {
-        if let Some(made) = reduction(model, &part, &acting, report) {
+    for asked in asked {
+        if let Some(made) = reduction(model, &asked, &acting, report) {
             model.reductions.push(made);
         }
     }
+}
+
+/// The parts of an entry of `[[parts]]`; `others` are reduced already.
+fn part_set<'d>(deck: &'d Deck, index: usize, others: &[Asked], report: &mut Report<'d>) -> Option<Asked<'d>> {
+    let table = &deck.part_sets[index];
+    let (name, owner) = report.named(("parts", "parts", index), table.name.as_ref(), &table.span);
+    let (list, extent) =
+        (report.require(&owner, "parts", &table.parts), report.require(&owner, "reduced", &table.reduced));
+    let (list, extent) = (list?, extent?);
+    let mut parts: Vec<DeckPart> = Vec::new();
+    for member in &list.values {
+        let set = deck.sets.0.iter().find(|(set, _)| set.value == member.value);
+        let names = set.map_or_else(|| vec![member], |(_, set)| set.values.iter().collect());
+        for name in names {
+            let part = member_part(deck, name, report)?;
+            let is_other = |other: &DeckPart| other.at == part.at;
+            if parts.iter().chain(others.iter().flat_map(|other| &other.parts)).any(is_other) {
+                let message = format!("{} is reduced twice", part.title());
+                let hint = "name it in one of `[[parts]]`, once, and leave `reduced` out of the part itself";
+                return report.error_with(&name.span, message, hint);
+            }
+            parts.push(part);
+        }
+    }
+    if parts.is_empty() {
+        return report.error_with(&list.span, format!("{} has no parts", owner.what), "name beams or shells");
+    }
+    let title = format!("parts `{name}`");
+    Some(Asked { name: name.to_string(), title, parts, extent })
+}
+
+/// A beam or shell by its name.
+fn member_part<'d>(deck: &'d Deck, name: &At<String>, report: &mut Report<'d>) -> Option<DeckPart<'d>> {
+    let parts = || deck.parts().filter(|part| part.at.kind.has_sections() || part.at.kind.is_surface());
+    if let Some(part) = parts().find(|part| part.is_named(name)) {
+        return Some(part);
+    }
+    let known: Vec<&str> = parts().filter_map(|part| part.name()).map(|name| name.as_str()).collect();
+    report.unknown("beam or shell", name, known.into_iter())
 }
 
 /// The points of the deck, and the nodes of bodies, constraints, point loads, dampers and stops.
@@ -49,13 +107,15 @@ fn acting_nodes(model: &mut Model) -> BTreeSet<usize> {
     nodes
 }
 
-fn reduction(model: &mut Model, part: &DeckPart, acting: &BTreeSet<usize>, report: &mut Report) -> Option<Reduction> {
-    let asked = part.table.reduced()?;
+fn reduction(model: &mut Model, of: &Asked, acting: &BTreeSet<usize>, report: &mut Report) -> Option<Reduction> {
+    let (asked, title) = (of.extent, &of.title);
     let (modes, up_to) = extent(asked, report)?;
-    let name = part.label();
-    let is_own = |other: &Part| other.kind() == part.at.kind && other.name() == name;
+    let is_own =
+        |other: &Part| of.parts.iter().any(|part| other.kind() == part.at.kind && other.name() == part.label());
     let parts: Vec<usize> = (0..model.parts.len()).filter(|&index| is_own(&model.parts[index])).collect();
-    refuse(model, part, &parts, &asked.span, report)?;
+    for part in &of.parts {
+        refuse(model, part, &parts, &asked.span, report)?;
+    }
     let nodes_of = |part: &Part| -> Vec<usize> {
         (0..part.elements()).flat_map(|element| part.nodes(element).to_vec()).chain(part.touched_nodes()).collect()
     };
@@ -76,8 +136,7 @@ fn reduction(model: &mut Model, part: &DeckPart, acting: &BTreeSet<usize>, repor
     let inner: Vec<usize> = nodes.into_iter().filter(|node| interface.binary_search(node).is_err()).collect();
     if inner.is_empty() {
         let message = format!(
-            "`reduced` leaves nothing out of {}: supports, links, loads or other parts act on each of its nodes",
-            part.title()
+            "`reduced` leaves nothing out of {title}: supports, links, loads or other parts act on each of its nodes"
         );
         return report.error_with(&asked.span, message, "leave `reduced` out");
     }
@@ -85,7 +144,7 @@ fn reduction(model: &mut Model, part: &DeckPart, acting: &BTreeSet<usize>, repor
         .iter()
         .any(|node| model.loading.pressures.iter().flat_map(|load| &load.faces).any(|face| face.nodes().contains(node)))
     {
-        let message = format!("a pressure turns with the surface of {}, and its reduced shapes do not", part.title());
+        let message = format!("a pressure turns with the surface of {title}, and its reduced shapes do not");
         return report.error_with(
             &asked.span,
             message,
@@ -93,9 +152,13 @@ fn reduction(model: &mut Model, part: &DeckPart, acting: &BTreeSet<usize>, repor
         );
     }
     let damping = model.parts[*parts.first()?].own_damping();
-    let amplitudes = amplitudes(model, &name, interface[0], modes.min(most));
+    if parts.iter().any(|&part| model.parts[part].own_damping() != damping) {
+        let message = format!("{title} have different `damping`, and their shapes have one");
+        return report.error_with(&asked.span, message, "give them one `damping`, or reduce them one by one");
+    }
+    let amplitudes = amplitudes(model, &of.name, interface[0], modes.min(most));
     let place = [asked.span.start, asked.span.end];
-    let title = part.title();
+    let (name, title) = (of.name.clone(), title.clone());
     Some(Reduction { name, title, parts, interface, inner, amplitudes, up_to, damping, place, made: None })
 }
 

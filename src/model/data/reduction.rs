@@ -1,7 +1,7 @@
 //! Parts that deform by a few shapes.
 
 use super::loading::OwnDamping;
-use mechanics::elements::superelement::SuperelementData;
+use mechanics::elements::superelement::{InertiaIntegrals, SuperelementData};
 use std::sync::Arc;
 
 /// Parts with a common superelement, which acts on the interface in place of their elements.
@@ -30,12 +30,14 @@ pub struct Reduction {
 }
 
 /// A reduced part by its matrices and shapes.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct ReducedPart {
     /// The superelement: interface and amplitudes.
     pub matrices: SuperelementData,
     /// The shapes: for each degree of freedom of the superelement six numbers of each inner node; column-major.
     pub shapes: Arc<[f64]>,
+    /// The integrals over its mass; `None` without mass.
+    pub integrals: Option<Arc<InertiaIntegrals>>,
     /// Frequencies of the modes with a fixed interface, ascending.
     pub frequencies: Vec<f64>,
     /// The frequency of the first mode that is left out; `None` where none is, or it is not known.

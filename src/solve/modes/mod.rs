@@ -4,6 +4,7 @@
 //! The matrices come from the assembly of steps: K with K(σ), follower loads, joints and contacts, M as in the motion. A Krylov space of
 //! the factorized matrix gives the eigenvalues. The signs of its pivots give their number (Sylvester's law of inertia), so none is missed.
 
+mod alike;
 mod buckling;
 mod damped;
 mod damping_modes;

@@ -4,17 +4,18 @@
 //! With Φ = [Ψ φ] the matrices are Φᵀ K Φ and Φᵀ M Φ (R. R. Craig, M. C. C. Bampton, AIAA J. 6 (1968) 1313-1319). They keep the rigid motions,
 //! the static stiffness and the mass of the part. K and M are those of the part at t = 0, without loads.
 
+use super::alike::{Known, Likeness};
 use super::fault::ModesFault;
 use super::linearized::Linearized;
 use super::modal::natural_pairs;
 use super::pencil::Pencil;
 use crate::plan::Plan;
-use crate::system::{Forces, Loading, System};
+use crate::system::{Loading, System, reduced};
 use crate::tolerances::reduction::{CARRIED, FEW, MOST};
 use base::diagnostic::Diagnostic;
 use base::math::{Vec3, Vec6};
 use mechanics::elements::Moduli;
-use mechanics::elements::superelement::SuperelementData;
+use mechanics::elements::superelement::{InertiaIntegrals, SuperelementData, dot, products};
 use mechanics::state::{Configuration, Node, State};
 use model::{
     AnalysisKind, Constraints, Damping, LoadCases, Loading as ModelLoading, ModeExtent, Model, ModesAsked, ReducedPart,
@@ -30,12 +31,12 @@ use std::sync::atomic::AtomicBool;
 /// # Errors
 /// The parts without matrices, in the words of the deck.
 pub fn reduce(models: &mut [&mut Model]) -> Result<(), Vec<Diagnostic>> {
-    let mut problems = Vec::new();
+    let (mut problems, mut known) = (Vec::new(), Known::new());
     let count = models.first().map_or(0, |model| model.reductions.len());
     for index in 0..count {
         let model = &*models[0];
         let of = &model.reductions[index];
-        match of.made.clone().map_or_else(|| reduced(model, of).map(Arc::new), Ok) {
+        match of.made.clone().map_or_else(|| reduced(model, of, &mut known), Ok) {
             Ok(made) => {
                 problems.extend(models.iter().filter_map(|model| other_velocities(model, index, &made)));
                 models.iter_mut().for_each(|model| keep(model, index, &made));
@@ -133,7 +134,7 @@ fn refuse_large(of: &Reduction) -> Result<(), String> {
     ))
 }
 
-fn reduced(model: &Model, of: &Reduction) -> Result<ReducedPart, String> {
+fn reduced(model: &Model, of: &Reduction, known: &mut Known) -> Result<Arc<ReducedPart>, String> {
     refuse_large(of)?;
     let own = alone(model, of);
     let system = System::in_space(&own)?;
@@ -154,13 +155,19 @@ fn reduced(model: &Model, of: &Reduction) -> Result<ReducedPart, String> {
         factored: &loading,
         stop: &never,
     };
+    let own = OwnNodes::new(of, own.nodes.len());
+    let likeness = (model.reductions.len() > 1).then(|| Likeness::new(&at, model, of, &own));
+    if let Some(made) = likeness.as_ref().and_then(|likeness| likeness.find(known, of)) {
+        return Ok(Arc::new(made));
+    }
     let (mut solver, mut assembly) = at.symmetric_solver().map_err(|error| error.to_string())?;
     let mut pencil = Pencil::new(at, (&mut solver, &mut assembly));
     let pairs = inner_modes(&mut pencil, of)?;
-    let own = OwnNodes::new(of, own.nodes.len());
     let columns = columns(&mut pencil, (of, &own), &pairs.kept)?;
-    let shapes = Shapes { of, own, at, columns };
-    shapes.into_part(&pairs)
+    let shapes = Shapes { of, model, own, at, columns };
+    let made = Arc::new(shapes.into_part(&pairs)?);
+    known.extend(likeness.map(|likeness| (likeness, made.clone())));
+    Ok(made)
 }
 
 /// The modes with a fixed interface.
@@ -201,10 +208,10 @@ fn words(fault: &ModesFault) -> String {
 }
 
 /// The nodes of a part: its interface, then those inside. Columns hold the motions of these alone.
-struct OwnNodes {
+pub(super) struct OwnNodes {
     nodes: Vec<usize>,
     /// The place of each node of the scene among them; the number of nodes for others.
-    place: Vec<usize>,
+    pub place: Vec<usize>,
 }
 
 impl OwnNodes {
@@ -219,23 +226,29 @@ impl OwnNodes {
     fn of(&self, scene: &[Vec6]) -> Vec<Vec6> {
         self.nodes.iter().map(|&node| scene[node]).collect()
     }
+
+    /// Motions of these nodes as columns.
+    fn matrix(&self, motions: &[Vec<Vec6>]) -> DMatrix<f64> {
+        DMatrix::from_fn(6 * self.nodes.len(), motions.len(), |row, column| motions[column][row / 6][row % 6])
+    }
 }
 
-/// The motions of the nodes of a part by a unit of each degree of freedom of the superelement.
+/// The motions of the nodes of a part by a unit of each degree of freedom of the superelement: six rows for each node.
 fn columns(
     pencil: &mut Pencil,
     (of, own): (&Reduction, &OwnNodes),
     modes: &[(f64, Vec<f64>)],
-) -> Result<Vec<Vec<Vec6>>, String> {
+) -> Result<DMatrix<f64>, String> {
     let at = pencil.at;
-    let mut row_of = vec![[None; 6]; at.model.nodes.len()];
-    at.plan.dofs.nodal_dofs().iter().enumerate().for_each(|(row, &(node, dof))| row_of[node][dof] = Some(row));
     match pencil.factor(0.0) {
         Ok(0) => {}
         Ok(_) => return Err("with its interface held, it is unstable at t = 0".to_owned()),
         Err(row) => return Err(words(&pencil.singular(row))),
     }
-    let mut statics = vec![vec![0.0; at.unknowns()]; 6 * of.interface.len()];
+    let placed = 6 * of.interface.len();
+    let row_of = |&(node, dof): &(usize, usize)| 6 * own.place[node] + dof;
+    let rows: Vec<usize> = at.plan.dofs.nodal_dofs().iter().map(row_of).collect();
+    let mut statics = vec![vec![0.0; at.unknowns()]; placed];
     let moved = |nodes: &[Node], statics: &[Vec<f64>]| -> Vec<Vec<Vec6>> {
         let of_unit = |(k, x): (usize, &Vec<f64>)| {
             let mut motions = own.of(&at.motions(nodes, x));
@@ -246,37 +259,38 @@ fn columns(
     };
     // The second solution removes the rounding of the first: rigid motions, and axial forces beside bending, need its digits.
     for _ in 0..2 {
-        let columns = moved(&pencil.nodes, &statics);
-        let mut forces = vec![vec![0.0; at.unknowns()]; columns.len()];
-        each_element(&at, &pencil.nodes, |nodes, d, K| {
-            for (column, forces) in columns.iter().zip(&mut forces) {
-                subtract_forces((nodes, d, K), (column, own), &row_of, forces);
-            }
-        });
-        pencil.solve_all(&mut forces);
-        statics.iter_mut().flatten().zip(forces.iter().flatten()).for_each(|(sum, x)| *sum += x);
+        let columns = own.matrix(&moved(&pencil.nodes, &statics));
+        let forces = forces(&at, &pencil.nodes, own, &columns);
+        let unknown = |column: usize| rows.iter().map(|&row| -forces[(row, column)]).collect();
+        let mut missing: Vec<Vec<f64>> = (0..placed).map(unknown).collect();
+        pencil.solve_all(&mut missing);
+        statics.iter_mut().flatten().zip(missing.iter().flatten()).for_each(|(sum, x)| *sum += x);
     }
-    let statics = moved(&pencil.nodes, &statics);
-    let dynamics = modes.iter().map(|(_, x)| own.of(&at.motions(&pencil.nodes, x)));
-    Ok(statics.into_iter().chain(dynamics).collect())
+    let mut columns = moved(&pencil.nodes, &statics);
+    columns.extend(modes.iter().map(|(_, x)| own.of(&at.motions(&pencil.nodes, x))));
+    Ok(own.matrix(&columns))
 }
 
-/// Subtracts the forces of an element in a small motion of its nodes from those on the unknowns.
-fn subtract_forces(
-    (nodes, d, K): (&[usize], usize, &[f64]),
-    (motions, own): (&[Vec6], &OwnNodes),
-    row_of: &[[Option<usize>; 6]],
-    forces: &mut [f64],
-) {
-    let width = d * nodes.len();
-    for (i, row) in (0..width).filter_map(|i| Some((i, row_of[nodes[i / d]][i % d]?))) {
-        let force: f64 = (0..width).map(|j| K[i * width + j] * motions[own.place[nodes[j / d]]][j % d]).sum();
-        forces[row] -= force;
-    }
+/// K times motions of the nodes of a part.
+fn forces(at: &Linearized, nodes: &[Node], own: &OwnNodes, columns: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut forces = DMatrix::zeros(columns.nrows(), columns.ncols());
+    let (mut rows, mut moved) = (Vec::new(), Vec::new());
+    each_element(at, nodes, |nodes, d, K| {
+        rows.clear();
+        rows.extend((0..d * nodes.len()).map(|i| 6 * own.place[nodes[i / d]] + i % d));
+        for (column, mut forces) in columns.column_iter().zip(forces.column_iter_mut()) {
+            moved.clear();
+            moved.extend(rows.iter().map(|&row| column[row]));
+            for (&row, K) in rows.iter().zip(K.chunks_exact(rows.len())) {
+                forces[row] += dot(K, &moved);
+            }
+        }
+    });
+    forces
 }
 
 /// Calls `visit` with the nodes of each element, its degrees of freedom per node and its stiffness.
-fn each_element(at: &Linearized, nodes: &[Node], mut visit: impl FnMut(&[usize], usize, &[f64])) {
+pub(super) fn each_element(at: &Linearized, nodes: &[Node], mut visit: impl FnMut(&[usize], usize, &[f64])) {
     let now = Configuration { nodes, history: &at.state.history, dt: 0.0, previous: None };
     let mut K = Vec::new();
     for group in &at.system.groups {
@@ -294,20 +308,23 @@ fn each_element(at: &Linearized, nodes: &[Node], mut visit: impl FnMut(&[usize],
 /// The shapes of a part.
 struct Shapes<'a> {
     of: &'a Reduction,
+    model: &'a Model,
     own: OwnNodes,
     at: Linearized<'a>,
-    columns: Vec<Vec<Vec6>>,
+    /// Six rows for each node of the part, and a column for each degree of freedom of the superelement.
+    columns: DMatrix<f64>,
 }
 
 impl Shapes<'_> {
     fn into_part(mut self, modes: &InnerModes) -> Result<ReducedPart, String> {
         let (of, placed) = (self.of, 6 * self.of.interface.len());
-        let mut mass = self.mass();
+        let masses = reduced::masses(self.model, of, &self.own.place);
+        let mut mass = masses.matrix(&self.columns);
         let total = (0..3).map(|axis| self.total(&mass, axis)).sum::<f64>() / 3.0;
         // Amplitudes are as large as displacements that have their energy.
-        for column in placed..self.columns.len() {
+        for column in placed..self.columns.ncols() {
             let scale = (total / mass[(column, column)]).sqrt();
-            self.columns[column].iter_mut().for_each(|motion| *motion *= scale);
+            self.columns.column_mut(column).scale_mut(scale);
             mass.row_mut(column).scale_mut(scale);
             mass.column_mut(column).scale_mut(scale);
         }
@@ -337,12 +354,12 @@ impl Shapes<'_> {
             mass: made.mass.as_ref().map_or_else(|| Arc::from([]), entries),
             damping: Arc::from([]),
         };
-        let of_column = |column: &Vec<Vec6>| {
-            column[of.interface.len()..].iter().flat_map(|motion| motion.iter().copied()).collect::<Vec<f64>>()
-        };
-        let shapes = self.columns.iter().flat_map(of_column).collect();
+        let shapes = self.columns.column_iter().flat_map(|column| column.into_owned().as_slice()[placed..].to_vec());
+        let shapes = shapes.collect();
+        let integrals = has_mass.then(|| Arc::new(InertiaIntegrals::new(&masses, &self.columns)));
         let frequencies = modes.kept.iter().map(|(square, _)| square.max(0.0).sqrt() / TAU).collect();
-        Ok(ReducedPart { matrices, shapes, frequencies, next: modes.next, replaced: self.at.unknowns() })
+        let replaced = self.at.unknowns();
+        Ok(ReducedPart { matrices, shapes, integrals, frequencies, next: modes.next, replaced })
     }
 
     /// The mass that moves along an axis.
@@ -353,34 +370,6 @@ impl Shapes<'_> {
 
     /// Φᵀ K Φ.
     fn stiffness(&self) -> DMatrix<f64> {
-        let size = self.columns.len();
-        let mut sum = DMatrix::zeros(size, size);
-        each_element(&self.at, &self.at.nodes_at_rest(), |nodes, d, K| {
-            let width = d * nodes.len();
-            let own = DMatrix::from_fn(width, size, |row, column| {
-                self.columns[column][self.own.place[nodes[row / d]]][row % d]
-            });
-            let K = DMatrix::from_row_slice(width, width, K);
-            sum += own.tr_mul(&(K * &own));
-        });
-        sum
-    }
-
-    /// Φᵀ M Φ.
-    fn mass(&self) -> DMatrix<f64> {
-        let (at, size) = (&self.at, self.columns.len());
-        let nodes = at.nodes_at_rest();
-        let mut forces = Forces::new(at.system, nodes.len());
-        let mut motions = vec![Vec6::zeros(); nodes.len()];
-        let mut mass = DMatrix::zeros(size, size);
-        for (k, column) in self.columns.iter().enumerate() {
-            self.own.nodes.iter().zip(column).for_each(|(&node, motion)| motions[node] = *motion);
-            at.system.apply_mass(&nodes, &mut motions, &mut forces);
-            let product: Vec<Vec6> = self.own.nodes.iter().map(|&node| Vec6::from(forces.on_nodes[node])).collect();
-            for (row, other) in self.columns.iter().enumerate() {
-                mass[(row, k)] = other.iter().zip(&product).map(|(q, f)| q.dot(f)).sum();
-            }
-        }
-        mass
+        products(&self.columns, &forces(&self.at, &self.at.nodes_at_rest(), &self.own, &self.columns))
     }
 }

@@ -3,11 +3,10 @@
 use super::mass_damping::MassDamping;
 use super::parts::assembled;
 use super::reduced;
-use super::reduced_mass::ReducedMass;
 use super::tangent_weights::TangentWeights;
 use base::math::{Vec3, Vec6};
 use mechanics::elements::Force;
-use mechanics::elements::superelement::{FloatingElement, FloatingWeights};
+use mechanics::elements::superelement::{FloatingElement, FloatingWeights, InertiaIntegrals};
 use mechanics::state::Node;
 use model::{Model, Part, Reduction};
 use std::sync::Arc;
@@ -19,8 +18,8 @@ pub struct FloatingMass {
     pub element: Arc<FloatingElement>,
     /// Rayleigh's factor on its mass, per time.
     pub alpha: f64,
-    /// The masses of its nodes, where it is a reduced part.
-    pub nodes: Option<Arc<ReducedMass>>,
+    /// The integrals over its mass, where it is a reduced part.
+    pub integrals: Option<Arc<InertiaIntegrals>>,
 }
 
 impl FloatingMass {
@@ -36,22 +35,18 @@ impl FloatingMass {
         let damping = damping.filter(|_| self.alpha > 0.0);
         let relative = damping.map(|damping| move |node: usize| damping.relative(node, nodes));
         let drag = relative.as_ref().map(|relative| (self.alpha, relative as &dyn Fn(usize) -> [Vec3; 2]));
-        match &self.nodes {
+        match &self.integrals {
             None => self.element.add_inertia(nodes, field, dynamic, drag, F),
-            Some(own) => {
-                own.add_forces(nodes, field, dynamic, F);
-                if drag.is_some() {
-                    self.element.add_inertia(nodes, &Vec3::zeros(), false, drag, F);
-                }
-            }
+            Some(_) if !dynamic && drag.is_none() && *field == Vec3::zeros() => {}
+            Some(own) => own.add_forces(&self.element, nodes, field, dynamic, drag, F),
         }
     }
 
     /// Writes the derivative of these forces, with the sign of a stiffness.
     pub fn tangent(&self, (nodes, field): (&[Node], &Vec3), weights: &TangentWeights, gyroscopic: bool, K: &mut [f64]) {
         let TangentWeights { rate, acceleration, stiffness, .. } = *weights;
-        if self.nodes.is_some() {
-            // Gyroscopic terms of the matrices differ from the forces of the nodes, and are small in a step.
+        if self.integrals.is_some() {
+            // Gyroscopic terms are small in a step.
             return self.element.mass_tangent(nodes, acceleration + self.alpha * rate, K);
         }
         let field = if stiffness { *field } else { Vec3::zeros() };
@@ -63,7 +58,10 @@ impl FloatingMass {
     pub fn powers(&self, damping: &MassDamping, nodes: &[Node]) -> [f64; 2] {
         let relative = |node: usize| damping.relative(node, nodes);
         let carried = |node: usize| damping.carried(node, nodes);
-        self.element.drag_powers(nodes, self.alpha, &relative, &carried)
+        match &self.integrals {
+            None => self.element.drag_powers(nodes, self.alpha, &relative, &carried),
+            Some(own) => own.drag_powers(&self.element, nodes, self.alpha, [&relative, &carried]),
+        }
     }
 
     /// The work of a field between two configurations.
@@ -73,23 +71,27 @@ impl FloatingMass {
 
     /// The displacement of its centre of mass between two configurations.
     pub fn moved(&self, from: &[Node], to: &[Node]) -> Vec3 {
-        match &self.nodes {
-            None => self.element.center_now(to) - self.element.center_now(from),
-            Some(own) => own.center_moved(to) - own.center_moved(from),
-        }
+        let Some(own) = &self.integrals else {
+            return self.element.center_now(to) - self.element.center_now(from);
+        };
+        let first = self.element.nodes()[0];
+        to[first].relative_position(&from[first]) + own.center(&self.element, to) - own.center(&self.element, from)
     }
 
     /// Subtracts `factor` times the product of the mass matrix and small motions of all nodes from `F`.
     pub fn subtract_product(&self, nodes: &[Node], motions: &[Vec6], factor: f64, F: &mut [Force]) {
-        match &self.nodes {
+        match &self.integrals {
             None => self.element.subtract_mass(nodes, motions, factor, F),
-            Some(own) => own.subtract_product(nodes, motions, factor, F),
+            Some(own) => own.subtract_product(&self.element, nodes, motions, factor, F),
         }
     }
 
     /// Kinetic energy, linear momentum, and angular momentum about the origin.
     pub fn motion(&self, nodes: &[Node]) -> (f64, Vec3, Vec3) {
-        self.nodes.as_ref().map_or_else(|| self.element.motion(nodes), |own| own.motion(nodes))
+        match &self.integrals {
+            None => self.element.motion(nodes),
+            Some(own) => own.motion(&self.element, nodes),
+        }
     }
 }
 
@@ -97,12 +99,16 @@ impl FloatingMass {
 pub fn floating_masses(model: &Model, x: &[Vec3]) -> Vec<FloatingMass> {
     let of_part = |part: &Part| {
         let element = assembled(part).floating(x, 0.0).filter(|element| element.total_mass() > 0.0)?;
-        Some(FloatingMass { element: Arc::new(element), alpha: model.damping.alpha(&part.own_damping()), nodes: None })
+        Some(FloatingMass {
+            element: Arc::new(element),
+            alpha: model.damping.alpha(&part.own_damping()),
+            integrals: None,
+        })
     };
     let of_reduced = |of: &Reduction| {
         let element = reduced::element(model, of, x, 0.0).filter(|element| element.total_mass() > 0.0)?;
-        let nodes = ReducedMass::new(model, of, x).map(Arc::new);
-        Some(FloatingMass { element: Arc::new(element), alpha: model.damping.alpha(&of.damping), nodes })
+        let integrals = of.made.as_ref()?.integrals.clone();
+        Some(FloatingMass { element: Arc::new(element), alpha: model.damping.alpha(&of.damping), integrals })
     };
     let reduced = model.reductions.iter().filter_map(of_reduced);
     model.parts.iter().filter_map(of_part).chain(reduced).collect()

@@ -1,10 +1,11 @@
 //! Reduced parts in the equation of motion: a superelement acts in place of the elements, whose nodes follow from it.
 
+use super::build;
 use super::group::{Group, GroupBlock};
 use super::parts::{NumberedBlock, Setting, assembled};
 use base::math::{Vec3, Vec6};
 use mechanics::elements::Force;
-use mechanics::elements::superelement::{FloatingElement, InnerNodes};
+use mechanics::elements::superelement::{FloatingElement, InnerNodes, ModalMass, NodalMass};
 use mechanics::state::Node;
 use model::{Model, Reduction};
 use std::sync::Arc;
@@ -57,6 +58,25 @@ impl FollowingNodes {
 pub fn element(model: &Model, of: &Reduction, x: &[Vec3], beta: f64) -> Option<FloatingElement> {
     debug_assert!(model.nodes.len() == x.len());
     Some(FloatingElement::new(of.made.as_ref()?.matrices.clone(), x, beta))
+}
+
+/// The masses of a reduced part, whose nodes have these places among those of its shapes.
+pub fn masses(model: &Model, of: &Reduction, place: &[usize]) -> ModalMass {
+    let x: Vec<Vec3> = model.nodes.iter().map(|node| node.x).collect();
+    let parts = of.parts.iter().map(|&part| &model.parts[part]);
+    let (lumped, consistent) = build::masses_of(model, &x, [].iter(), [].iter(), parts);
+    let mean = of.interface.iter().map(|&node| x[node]).sum::<Vec3>() / of.interface.len() as f64;
+    let at_nodes = lumped.iter().map(|inertia| (place[inertia.node], place[inertia.node], inertia.mass));
+    let pairs = consistent.iter().flat_map(|mass| mass.pairs().map(|(a, b, m)| (place[a], place[b], m)));
+    ModalMass {
+        Y: of.interface.iter().chain(&of.inner).map(|&node| x[node] - mean).collect(),
+        masses: at_nodes.filter(|(.., mass)| *mass > 0.0).chain(pairs).collect(),
+        rotary: lumped
+            .iter()
+            .filter(|inertia| inertia.rotary)
+            .map(|inertia| NodalMass { node: place[inertia.node], J0: inertia.J0 })
+            .collect(),
+    }
 }
 
 /// The elements of reduced parts, which give results and exert no forces.

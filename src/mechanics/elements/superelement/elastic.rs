@@ -4,10 +4,10 @@
 //! with m_i = T⁻ᵀ(ψ_i) g_ψ, h = Σ z_i × g_i + m_i and b = G⁻¹ h, the forces are f_i = g_i − ½ b × Y_i and the moments m_i − λ H_iᵀ b.
 
 use super::frame::{FloatingFrame, half_trace_less};
-use super::{FloatingElement, Scratch, add_three, multiply, set_three, three};
+use super::{FloatingElement, Scratch, add_multiple, add_three, multiply, set_three, three};
 use crate::elements::block::{Branches, Elements, Force, Mechanics, Moduli, Results, subtract};
 use crate::state::{Configuration, Node};
-use base::math::rotation::{inverse_tangent, inverse_tangent_change};
+use base::math::rotation::{inverse_tangent, inverse_tangent_change, inverse_tangent_matrix};
 use base::math::{Mat3, Vec3, skew};
 
 /// A superelement as a block of one element.
@@ -126,74 +126,92 @@ impl FloatingElement {
         (self.placed()..self.size()).for_each(|k| visit(k, k - 5 * self.data.interface));
     }
 
-    /// Writes (K + rate (C + β K)) diag(1, T⁻¹(ψ)): the derivative of g by the motions of the nodes in a frame that stays.
-    fn local_stiffness(&self, frame: &FloatingFrame, rate: f64, A: &mut [f64]) {
+    /// Writes the transpose of (K + rate (C + β K)) diag(1, T⁻¹(ψ)): a row for each motion of the nodes in a frame that stays, with the
+    /// derivatives of g. K and C are symmetric.
+    fn local_stiffness(&self, inverses: &[Mat3], rate: f64, A: &mut [f64]) {
         let (size, factor) = (self.size(), 1.0 + rate * self.beta);
         A.iter_mut().zip(&*self.data.stiffness).for_each(|(a, k)| *a = factor * k);
         A.iter_mut().zip(&*self.data.damping).for_each(|(a, c)| *a += rate * c);
-        for (i, psi) in frame.psi.iter().enumerate() {
-            let inverse = [0, 1, 2].map(|axis| inverse_tangent(psi, &Vec3::ith(axis, 1.0)));
-            for row in A.chunks_mut(size) {
-                let entry = three(row, 6 * i + 3);
-                set_three(row, 6 * i + 3, &Vec3::from_fn(|axis, _| entry.dot(&inverse[axis])));
+        for (rows, inverse) in A.chunks_mut(6 * size).zip(inverses) {
+            let [x, y, z] = three_rows(&mut rows[3 * size..], size);
+            for ((x, y), z) in x.iter_mut().zip(y).zip(z) {
+                let turned = inverse.tr_mul(&Vec3::new(*x, *y, *z));
+                (*x, *y, *z) = (turned.x, turned.y, turned.z);
             }
         }
     }
 
-    /// The column of the tangent along a unit motion of one degree of freedom: `f` changes by `df`, along the axes of the frame.
+    /// Writes the change of g where the frame turns by φ, and the nodes stay.
+    fn turned_forces(&self, frame: &FloatingFrame, A: &[f64], phi: &Vec3, change: &mut [f64]) {
+        change.fill(0.0);
+        let mut subtract =
+            |k: usize, moved: f64| add_multiple(change, -moved, &A[k * self.size()..(k + 1) * self.size()]);
+        for (i, z) in frame.z.iter().enumerate() {
+            let moved = phi.cross(z);
+            (0..3).for_each(|k| subtract(6 * i + k, moved[k]));
+            (0..3).for_each(|k| subtract(6 * i + 3 + k, phi[k]));
+        }
+    }
+
+    /// A column of the tangent, along the axes of the frame: replaces the change `df` of g in a small motion by that of the forces.
     fn column(
         &self,
-        frame: &FloatingFrame,
-        (A, [g, f, df, dg, ..]): (&[f64], &mut [Vec<f64>; 8]),
-        moved: &Moved,
-        b: &Vec3,
+        (frame, inverses): (&FloatingFrame, &[Mat3]),
+        [g, f]: [&Vec<f64>; 2],
+        (moved, b): (&Moved, &Vec3),
+        df: &mut [f64],
     ) {
-        let size = self.size();
-        let phi = moved.phi;
-        for (row, dg) in dg.iter_mut().enumerate() {
-            let entries = &A[row * size..(row + 1) * size];
-            // The frame turns all nodes back.
-            let mut change = entries[moved.dof];
-            for (i, z) in frame.z.iter().enumerate() {
-                change -= three(entries, 6 * i).dot(&phi.cross(z)) + three(entries, 6 * i + 3).dot(&phi);
-            }
-            *dg = change;
-        }
-        df.copy_from_slice(dg);
         let (mut dh, mut dS) = (Vec3::zeros(), Mat3::zeros());
         for (i, Y) in self.Y.iter().enumerate() {
-            let ([du, e], psi) = (moved.relative(frame, i), &frame.psi[i]);
-            let dm = inverse_tangent(&-psi, &three(dg, 6 * i + 3))
-                + inverse_tangent_change(&-psi, &-inverse_tangent(psi, &e), &three(g, 6 * i + 3));
-            dh += du.cross(&three(g, 6 * i)) + frame.z[i].cross(&three(dg, 6 * i)) + dm;
-            dS += du * Y.transpose() + self.turning * (skew(&e) * frame.E[i]);
+            let mut dm = inverses[i].tr_mul(&three(df, 6 * i + 3));
+            if moved.moves(i) {
+                let ([du, e], psi) = (moved.relative(frame, i), &frame.psi[i]);
+                dm += inverse_tangent_change(&-psi, &-inverse_tangent(psi, &e), &three(g, 6 * i + 3));
+                dh += du.cross(&three(g, 6 * i));
+                dS += du * Y.transpose() + self.turning * (skew(&e) * frame.E[i]);
+            }
+            dh += frame.z[i].cross(&three(df, 6 * i)) + dm;
             set_three(df, 6 * i + 3, &dm);
         }
         let db = frame.inverse * (dh - half_trace_less(&dS) * b);
         self.add_turning(frame, &-db, df);
-        for i in 0..self.data.interface {
+        for i in (0..self.data.interface).filter(|&i| moved.moves(i)) {
             let dH = half_trace_less(&(skew(&moved.relative(frame, i)[1]) * frame.E[i]));
             add_three(df, 6 * i + 3, &(-self.turning * dH.tr_mul(b)));
             for at in [6 * i, 6 * i + 3] {
-                add_three(df, at, &phi.cross(&three(f, at)));
+                add_three(df, at, &moved.phi.cross(&three(f, at)));
             }
         }
     }
 
-    /// Adds a column along the axes of the frame, for a direction of a node, to the tangent of the nodes.
-    pub(super) fn add_column(&self, R: &Mat3, df: &[f64], [node, direction]: [usize; 2], K: &mut [f64]) {
-        let width = 6 * self.data.nodes.len();
-        let (base, axis) = (6 * node + direction / 3 * 3, direction % 3);
-        let is_placed = node < self.data.interface;
-        let mut add = |row: usize, value: f64| match is_placed {
-            true => (0..3).for_each(|k| K[row * width + base + k] += value * R[(k, axis)]),
-            false => K[row * width + 6 * node] += value,
-        };
-        for at in (0..self.placed()).step_by(3) {
-            let turned = R * three(df, at);
-            (0..3).for_each(|k| add(at + k, turned[k]));
+    /// Writes a matrix along the axes of the frame as one of the nodes, times `factor`. Each row of `local` is a column of the tangent, and
+    /// `K` is row-major over six degrees of freedom of each node.
+    pub(super) fn turned(&self, R: &Mat3, local: &[f64], factor: f64, K: &mut [f64]) {
+        let (size, placed, width) = (self.size(), self.placed(), 6 * self.data.nodes.len());
+        let at = |k: usize| if k < placed { k } else { placed + 6 * (k - placed) };
+        K.fill(0.0);
+        for column in (0..placed).step_by(3) {
+            let entry = |row: usize, k: usize| local[(column + k) * size + row];
+            for row in (0..placed).step_by(3) {
+                let block = R * Mat3::from_fn(|i, k| factor * entry(row + i, k)) * R.transpose();
+                (0..3).for_each(|i| {
+                    let start = (row + i) * width + column;
+                    (0..3).for_each(|k| K[start + k] = block[(i, k)]);
+                });
+            }
+            for row in placed..size {
+                let turned = R * Vec3::from_fn(|k, _| factor * entry(row, k));
+                set_three(K, at(row) * width + column, &turned);
+            }
         }
-        self.each_amplitude(|k, i| add(6 * i, df[k]));
+        for column in placed..size {
+            let entries = &local[column * size..(column + 1) * size];
+            for row in (0..placed).step_by(3) {
+                let turned = R * three(entries, row);
+                (0..3).for_each(|k| K[(row + k) * width + at(column)] = factor * turned[k]);
+            }
+            (placed..size).for_each(|row| K[at(row) * width + at(column)] = factor * entries[row]);
+        }
     }
 
     /// Calls `visit` with each degree of freedom that it acts on, as a unit motion along the axes of the frame.
@@ -214,6 +232,13 @@ impl FloatingElement {
     }
 }
 
+/// Three rows of a row-major matrix.
+fn three_rows(rows: &mut [f64], size: usize) -> [&mut [f64]; 3] {
+    let (x, rest) = rows.split_at_mut(size);
+    let (y, rest) = rest.split_at_mut(size);
+    [x, y, &mut rest[..size]]
+}
+
 /// A unit motion of one degree of freedom along the axes of the frame.
 pub struct Moved {
     pub dof: usize,
@@ -224,6 +249,11 @@ pub struct Moved {
 }
 
 impl Moved {
+    /// True where a node moves relative to the frame.
+    fn moves(&self, node: usize) -> bool {
+        node == self.node || self.phi != Vec3::zeros()
+    }
+
     /// The displacement and the rotation of a node.
     pub fn of(&self, node: usize) -> [Vec3; 2] {
         let mut motion = [Vec3::zeros(); 2];
@@ -275,13 +305,21 @@ impl Mechanics for SuperelementBlock {
         let of = &self.0;
         let scratch = &mut *of.scratch();
         let b = of.local_forces(now.nodes, now.previous, scratch);
-        let Scratch { frame, vectors, matrix, .. } = scratch;
-        of.local_stiffness(frame, rate_weight, matrix);
-        K.fill(0.0);
+        let Scratch { frame, vectors: [g, f, turns @ .., _, _, _], matrix, inverses, .. } = scratch;
+        inverses.iter_mut().zip(&frame.psi).for_each(|(inverse, psi)| *inverse = inverse_tangent_matrix(psi));
+        of.local_stiffness(inverses, rate_weight, matrix);
+        let (size, at) = (of.size(), (&*frame, &inverses[..]));
+        for (axis, df) in turns.iter_mut().enumerate() {
+            let phi = Vec3::ith(axis, 1.0);
+            of.turned_forces(frame, matrix, &phi, df);
+            of.column(at, [g, f], (&Moved { dof: size, node: usize::MAX, direction: 0, phi }, &b), df);
+        }
         of.each_motion(frame, |moved| {
-            of.column(frame, (matrix, vectors), moved, &b);
-            of.add_column(&frame.R, &vectors[2], [moved.node, moved.direction], K);
+            let df = &mut matrix[moved.dof * size..(moved.dof + 1) * size];
+            of.column(at, [g, f], (&Moved { phi: Vec3::zeros(), ..*moved }, &b), df);
+            turns.iter().zip(&moved.phi).for_each(|(turn, phi)| add_multiple(df, *phi, turn));
         });
+        of.turned(&frame.R, matrix, 1.0, K);
     }
 
     fn is_damped(&self) -> bool {

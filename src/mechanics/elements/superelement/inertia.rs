@@ -47,7 +47,7 @@ impl FloatingElement {
     }
 
     /// Writes motions of all nodes of the superelement along the axes of the frame.
-    fn local(&self, frame: &FloatingFrame, w: &mut [f64], of: impl Fn(usize) -> [Vec3; 2]) {
+    pub(super) fn local(&self, frame: &FloatingFrame, w: &mut [f64], of: impl Fn(usize) -> [Vec3; 2]) {
         for i in 0..self.data.interface {
             let [v, omega] = of(i);
             set_three(w, 6 * i, &frame.R.tr_mul(&v));
@@ -176,22 +176,16 @@ impl FloatingElement {
 
     /// Writes the mass matrix along the axes of the frame times `weight`, row-major over six degrees of freedom of each node.
     pub fn mass_tangent(&self, nodes: &[Node], weight: f64, K: &mut [f64]) {
-        K.fill(0.0);
-        let Scratch { frame, vectors: [column, ..], .. } = &mut *self.scratch();
+        let Scratch { frame, .. } = &mut *self.scratch();
         self.place(nodes, frame);
-        self.each_motion(frame, |moved| {
-            let row = &self.data.mass[moved.dof * column.len()..(moved.dof + 1) * column.len()];
-            column.iter_mut().zip(row).for_each(|(entry, mass)| *entry = weight * mass);
-            self.add_column(&frame.R, column, [moved.node, moved.direction], K);
-        });
+        self.turned(&frame.R, &self.data.mass, weight, K);
     }
 
     /// Writes the derivative of inertia forces and of the weight by a `field`, with the sign of a stiffness, row-major over six degrees of
     /// freedom of each node. Without gyroscopic terms inertia forces are those of the mass matrix alone.
     pub fn inertia_tangent(&self, nodes: &[Node], field: &Vec3, weights: &FloatingWeights, K: &mut [f64]) {
-        K.fill(0.0);
-        let Some(mass) = &self.mass else { return };
-        let Scratch { frame, q, vectors, .. } = &mut *self.scratch();
+        let Some(mass) = &self.mass else { return K.fill(0.0) };
+        let Scratch { frame, q, vectors, matrix, .. } = &mut *self.scratch();
         self.settle(nodes, frame, q);
         let center = Center::new(self, mass, frame, q);
         let [w, a, ..] = &mut *vectors;
@@ -203,9 +197,11 @@ impl FloatingElement {
         }
         let weight = mass.total * frame.R.tr_mul(field);
         let change = InertiaChange::new((self, mass), (frame, &center), weight, vectors);
+        matrix.fill(0.0);
         self.each_motion(frame, |moved| {
             change.column(weights, moved, vectors);
-            self.add_column(&frame.R, &vectors[7], [moved.node, moved.direction], K);
+            matrix[moved.dof * self.size()..(moved.dof + 1) * self.size()].copy_from_slice(&vectors[7]);
         });
+        self.turned(&frame.R, matrix, 1.0, K);
     }
 }

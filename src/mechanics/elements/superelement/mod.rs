@@ -9,9 +9,11 @@ mod elastic;
 mod frame;
 mod inertia;
 mod inertia_change;
+mod integrals;
 mod recovery;
 
 pub use elastic::SuperelementBlock;
+pub use integrals::{InertiaIntegrals, ModalMass, NodalMass, products};
 pub use recovery::InnerNodes;
 
 use base::math::{Mat3, Vec3, skew};
@@ -94,6 +96,8 @@ struct Scratch {
     vectors: [Vec<f64>; 8],
     /// A matrix of its size.
     matrix: Vec<f64>,
+    /// T⁻¹(ψ) of the nodes of the interface.
+    inverses: Vec<Mat3>,
 }
 
 impl FloatingElement {
@@ -116,6 +120,7 @@ impl FloatingElement {
             q: vec![0.0; size],
             vectors: std::array::from_fn(|_| vec![0.0; size]),
             matrix: vec![0.0; size * size],
+            inverses: vec![Mat3::identity(); n],
         };
         let mass = (!data.mass.is_empty()).then(|| MassProperties::of(&data.mass, n, &Y));
         FloatingElement { data, x, Y, turning, beta, mass, scratch: Mutex::new(scratch) }
@@ -230,6 +235,26 @@ fn add_three(of: &mut [f64], at: usize, values: &Vec3) {
 #[inline]
 fn multiply(A: &[f64], x: &[f64], product: &mut [f64]) {
     for (entry, row) in product.iter_mut().zip(A.chunks(x.len())) {
-        *entry = row.iter().zip(x).map(|(a, x)| a * x).sum();
+        *entry = dot(row, x);
     }
+}
+
+/// The product of two vectors, whose sums by sixteen run side by side.
+#[inline]
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 16];
+    let (mut left, mut right) = (a.chunks_exact(16), b.chunks_exact(16));
+    for (a, b) in left.by_ref().zip(right.by_ref()) {
+        for i in 0..16 {
+            sums[i] += a[i] * b[i];
+        }
+    }
+    let rest: f64 = left.remainder().iter().zip(right.remainder()).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + rest
+}
+
+/// Adds a multiple of a vector to another.
+#[inline]
+fn add_multiple(of: &mut [f64], factor: f64, values: &[f64]) {
+    of.iter_mut().zip(values).for_each(|(sum, value)| *sum += factor * value);
 }

@@ -4,8 +4,8 @@
 //! rotation R exp(ψ~). Velocities and accelerations are the time derivatives of these. Forces on inner nodes act on the superelement by the
 //! transpose of the map of velocities.
 
-use super::frame::{axial, quaternion};
-use super::{FloatingElement, Scratch, add_three, set_three, three};
+use super::frame::{FloatingFrame, axial, quaternion};
+use super::{FloatingElement, Scratch, add_multiple, add_three, dot, set_three, three};
 use crate::elements::Force;
 use crate::state::Node;
 use base::math::rotation::{exp, inverse_tangent, matrix, rates, vector_rates};
@@ -25,11 +25,11 @@ pub struct InnerNodes {
 }
 
 /// The motion of the frame, components along its axes.
-struct FrameMotion {
+pub(super) struct FrameMotion {
     /// Its angular velocity and acceleration.
-    spin: [Vec3; 2],
+    pub spin: [Vec3; 2],
     /// Velocity and acceleration of the mean of the nodes of the interface.
-    mean: [Vec3; 2],
+    pub mean: [Vec3; 2],
 }
 
 impl InnerNodes {
@@ -55,7 +55,7 @@ impl InnerNodes {
         products[..N].iter_mut().for_each(|product| product.fill(0.0));
         for (k, column) in self.shapes.chunks_exact((6 * self.nodes.len()).max(1)).enumerate() {
             for (product, values) in products.iter_mut().zip(values) {
-                product.iter_mut().zip(column).for_each(|(sum, shape)| *sum += values[k] * shape);
+                add_multiple(product, values[k], column);
             }
         }
     }
@@ -68,18 +68,9 @@ impl InnerNodes {
     }
 }
 
-/// The product of two vectors, whose sums by six run side by side.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 6];
-    for (a, b) in a.chunks_exact(6).zip(b.chunks_exact(6)) {
-        (0..6).for_each(|i| sums[i] += a[i] * b[i]);
-    }
-    sums.iter().sum()
-}
-
 impl FrameMotion {
     /// Places the frame and writes q, and its rates and accelerations into the first two vectors.
-    fn new(of: &FloatingElement, nodes: &[Node], scratch: &mut Scratch) -> FrameMotion {
+    pub fn new(of: &FloatingElement, nodes: &[Node], scratch: &mut Scratch) -> FrameMotion {
         let Scratch { frame, q, vectors: [w, a, ..], .. } = scratch;
         of.place(nodes, frame);
         of.displacements(nodes, frame, q);
@@ -118,6 +109,40 @@ impl FrameMotion {
     }
 }
 
+impl FloatingElement {
+    /// Writes the small motion q̇ in the frame for motions of the nodes, and returns those of their mean and of the frame, along its axes.
+    pub(super) fn small_motion(
+        &self,
+        frame: &FloatingFrame,
+        of_node: impl Fn(usize) -> [Vec3; 2],
+        w: &mut [f64],
+    ) -> [Vec3; 2] {
+        self.local(frame, w, of_node);
+        let phi = self.turn(frame, w);
+        let mean = (0..self.data.interface).map(|i| three(w, 6 * i)).sum::<Vec3>() / self.data.interface as f64;
+        for i in 0..self.data.interface {
+            let relative = three(w, 6 * i) - mean - phi.cross(&frame.z[i]);
+            let turn = inverse_tangent(&frame.psi[i], &(three(w, 6 * i + 3) - phi));
+            set_three(w, 6 * i, &relative);
+            set_three(w, 6 * i + 3, &turn);
+        }
+        [mean, phi]
+    }
+
+    /// Turns forces `g` on q into forces on the nodes, with the sum of all forces and their moment about the mean of the nodes.
+    pub(super) fn to_nodes(&self, frame: &FloatingFrame, sum: Vec3, mut h: Vec3, g: &mut [f64]) {
+        let at_nodes = (0..self.data.interface).map(|i| three(g, 6 * i)).sum::<Vec3>();
+        let mean = (sum - at_nodes) / self.data.interface as f64;
+        for i in 0..self.data.interface {
+            let m = inverse_tangent(&-frame.psi[i], &three(g, 6 * i + 3));
+            h -= frame.z[i].cross(&three(g, 6 * i)) + m;
+            set_three(g, 6 * i + 3, &m);
+            add_three(g, 6 * i, &mean);
+        }
+        self.add_turning(frame, &(frame.inverse * h), g);
+    }
+}
+
 impl InnerNodes {
     /// Writes the motion of the inner nodes.
     pub fn recover(&self, of: &FloatingElement, nodes: &mut [Node]) {
@@ -148,19 +173,11 @@ impl InnerNodes {
         let Scratch { frame, q, vectors: [w, ..], .. } = &mut *of.scratch();
         of.place(nodes, frame);
         of.displacements(nodes, frame, q);
-        for (i, &node) in of.data.nodes[..of.data.interface].iter().enumerate() {
-            set_three(w, 6 * i, &frame.R.tr_mul(&linear(&motions[node])));
-            set_three(w, 6 * i + 3, &frame.R.tr_mul(&angular(&motions[node])));
-        }
-        of.each_amplitude(|k, i| w[k] = motions[of.data.nodes[i]][0]);
-        let phi = of.turn(frame, w);
-        let mean = (0..of.data.interface).map(|i| three(w, 6 * i)).sum::<Vec3>() / of.data.interface as f64;
-        for i in 0..of.data.interface {
-            let relative = three(w, 6 * i) - mean - phi.cross(&frame.z[i]);
-            let turn = inverse_tangent(&frame.psi[i], &(three(w, 6 * i + 3) - phi));
-            set_three(w, 6 * i, &relative);
-            set_three(w, 6 * i + 3, &turn);
-        }
+        let of_node = |i: usize| {
+            let motion = &motions[of.data.nodes[i]];
+            [linear(motion), angular(motion)]
+        };
+        let [mean, phi] = of.small_motion(frame, of_node, w);
         let products = &mut *self.memory();
         self.multiply([q.as_slice(), w.as_slice()], products);
         for (k, (&node, Y)) in self.nodes.iter().zip(&self.Y).enumerate() {
@@ -192,15 +209,7 @@ impl InnerNodes {
             h += (Y + u).cross(&f) + m;
         }
         self.multiply_transposed(forces, g);
-        let at_nodes = (0..of.data.interface).map(|i| three(g, 6 * i)).sum::<Vec3>();
-        let mean = (sum - at_nodes) / of.data.interface as f64;
-        for i in 0..of.data.interface {
-            let m = inverse_tangent(&-frame.psi[i], &three(g, 6 * i + 3));
-            h -= frame.z[i].cross(&three(g, 6 * i)) + m;
-            set_three(g, 6 * i + 3, &m);
-            add_three(g, 6 * i, &mean);
-        }
-        of.add_turning(frame, &(frame.inverse * h), g);
+        of.to_nodes(frame, sum, h, g);
         g.iter_mut().for_each(|g| *g = -*g);
         of.subtract(frame, g, F);
     }
