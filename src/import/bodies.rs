@@ -3,6 +3,7 @@
 use crate::build::Build;
 use crate::contacts;
 use crate::deck_text::{DeckTable, list, quoted};
+use crate::dialect::Dialect;
 use crate::element_types::{ElementUse, SHAPE};
 use crate::file_content::{PropertyOf, RigidCard, StepCard, StepProcedure};
 use crate::part_piece::PartPiece;
@@ -175,6 +176,7 @@ fn body(build: &mut Build, card: &RigidCard, masses: &BTreeMap<u64, PointMass>) 
         false => table.names("parts", &parts),
     };
     build.deck.add(table);
+    say_rotations(build, card, &tied);
     let is_all = card.degrees.is_empty();
     let whole: BTreeSet<u64> =
         if is_all { tied.iter().copied().chain([reference]).collect() } else { [reference].into() };
@@ -199,6 +201,20 @@ fn body(build: &mut Build, card: &RigidCard, masses: &BTreeMap<u64, PointMass>) 
     for node in all.iter().chain(&own) {
         build.mesh.used.insert(*node);
         build.body_of.entry(*node).or_insert_with(|| name.clone());
+    }
+}
+
+/// Tells where CalculiX lets nodes of shells and beams turn in the body.
+fn say_rotations(build: &mut Build, card: &RigidCard, tied: &BTreeSet<u64>) {
+    if card.is_coupling || build.im.dialect != Some(Dialect::Calculix) {
+        return;
+    }
+    let turning = build.pieces.iter().filter(|piece| !piece.is_bar && !piece.is_rigid);
+    let mut nodes = turning.flat_map(|piece| &piece.elements).flat_map(|element| &element.2);
+    if nodes.any(|node| tied.contains(node)) {
+        let how = "nodes of shells and beams turn with the body. CalculiX leaves their rotations free, as `dofs = \"translations\"` in \
+                   [[attachments]] does";
+        build.im.change(card.line, how);
     }
 }
 
