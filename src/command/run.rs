@@ -309,10 +309,7 @@ impl Job<'_> {
     fn compute(&self, run: &mut Run, checkpoint: Option<Checkpoint>) -> io::Result<(End, RunResult, Vec<String>)> {
         let resumes = checkpoint.is_some();
         let log = self.begin(resumes)?;
-        let mut watchers = self.watchers(log, resumes)?;
-        if let Some(chosen) = self.chosen {
-            chosen.tell_steps(run, watchers.bars.as_mut(), &mut watchers.expectations);
-        }
+        let mut watchers = self.watchers(log, resumes, run)?;
         let looping = Instant::now();
         let mut told = StagesTold::default();
         let outcome = self.stages().run(run, checkpoint, (&mut watchers, &mut told))?;
@@ -396,8 +393,8 @@ impl Job<'_> {
         Ok(log)
     }
 
-    /// Who watches the run.
-    fn watchers(&self, log: Log, resumes: bool) -> io::Result<Watchers> {
+    /// Who watches the run. Both receive the pilot run that tells the errors of steps.
+    fn watchers(&self, log: Log, resumes: bool, run: &mut Run) -> io::Result<Watchers> {
         let model = &self.loaded.model;
         // Bars are those of one run from t = 0 on.
         let tells_errors = (by_error(model) || self.tells_mesh_error()) && model.analysis.stage.is_none();
@@ -408,6 +405,9 @@ impl Job<'_> {
         };
         watchers.checkpoints =
             self.checkpoints.clone().map(|wanted| Checkpoints::new(self.folder, wanted).after_another(resumes));
+        if let Some(chosen) = self.chosen {
+            chosen.tell_steps(run, watchers.bars.as_mut(), &mut watchers.expectations);
+        }
         Ok(watchers)
     }
 

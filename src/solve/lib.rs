@@ -70,12 +70,12 @@ pub mod inner {
 
 pub use crate::system::{ContactState, ContactTouch, JointState};
 pub use crate::system::{LinkState, SectionPlace, SectionPoint, ShellState, elastic_stresses};
+pub use control::comparison_times;
 pub use derived::{Derived, Wanted};
 pub use effort::Effort;
 pub use failure::{Failure, NamedResidual};
 pub use frame::{Frame, Observer, OtherRun, ShownCase};
 pub use global_error::{Kept, StepError};
-pub use control::comparison_times;
 pub use guards::breakage::Broken;
 pub use guards::contacts::settling_energy;
 pub use handover::{Handover, share_plane};

@@ -188,7 +188,8 @@ fn automatic_steps_go_on_where_they_were_stopped() {
 /// Pilot runs are made again, and tell the same errors.
 #[test]
 fn an_error_asked_for_goes_on_where_it_was_stopped() {
-    let sets = ["analysis.accuracy=1e-3", "analysis.time_step=\"auto\"", "expect=[]", "integrator={scheme=\"esdirk3\"}"];
+    let sets =
+        ["analysis.accuracy=1e-3", "analysis.time_step=\"auto\"", "expect=[]", "integrator={scheme=\"esdirk3\"}"];
     stopped_and_whole("flying_beam", &sets.map(|set| ["--set", set]).concat(), 6);
 }
 

@@ -105,9 +105,9 @@ fn choose(loaded: &Loaded, deck: &Deck, asked: f64, (threads, stop): (usize, &At
                 choose_steps(&mut pilots, report, &mesh.observed, &shares);
                 chosen.keep_pilots(&mut pilots, mesh);
             }
-            Err(reason) => report
-                .remarks
-                .push(format!("no setting was changed: {reason}. Run the deck without `accuracy` first")),
+            Err(reason) => {
+                report.remarks.push(format!("no setting was changed: {reason}. Run the deck without `accuracy` first"))
+            }
         }
     }
     let report = &mut chosen.report;
@@ -189,7 +189,8 @@ impl ChosenSettings {
 
     /// Lets the pilot run with the chosen mesh tell the errors of the steps of a run.
     pub fn tell_steps(&self, run: &mut Run, bars: Option<&mut ErrorBars>, expectations: &mut Expectations) {
-        let [Some(PilotRun { motion: Some(motion), numbers: Some((of_tables, of_values)), .. }), _] = &self.pilots else {
+        let [Some(PilotRun { motion: Some(motion), numbers: Some((of_tables, of_values)), .. }), _] = &self.pilots
+        else {
             return;
         };
         run.compare_with(motion.clone());

@@ -297,7 +297,7 @@ impl<'o> LookAhead<'o> {
         let end = run.end();
         let ends = &pilot.ends[..pilot.ends.partition_point(|time| *time <= end)];
         let apart = run.steps_apart_from(ends);
-        if !(apart > TELLING) || !(half > 0.0) {
+        if apart <= TELLING || half <= 0.0 {
             return;
         }
         let growth = (whole / half).log2().clamp(0.0, 1.0);
