@@ -63,7 +63,7 @@ pub fn check(args: &CheckArgs) -> Result<(), Exit> {
         text.computed.extend(limit_of_steps(model, system));
         text.computed.extend(effort(model, system, plan).map(|line| ("effort", line)));
         text.computed.extend(offers(model, system));
-        text.notes.extend(alternative(model));
+        text.notes.extend(alternative(model, plan.threads));
     }
     if args.first_period {
         texts[0].computed.push(("first mode", first_period(&loaded.model)));

@@ -14,6 +14,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use results::result_json::Status;
 use results::{SharedLock, replace};
+use std::collections::HashMap;
 use std::fs;
 use std::io::{self, IsTerminal};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -310,12 +311,14 @@ impl Sweep<'_> {
         let pending = of(|state| matches!(state, CaseState::Pending));
         let done = chosen.len() - failed - missed - pending;
         // An error of the deck is that of all its cases.
-        let mut reasons: Vec<(&str, Vec<usize>)> = Vec::new();
+        let (mut reasons, mut places): (Vec<(&str, Vec<usize>)>, HashMap<&str, usize>) = Default::default();
         for &case in chosen.iter().filter(|&&case| matches!(states[case], CaseState::Failed(_))) {
-            match reasons.iter_mut().find(|(reason, _)| *reason == states[case].reason()) {
-                Some((_, cases)) => cases.push(case + 1),
-                None => reasons.push((states[case].reason(), vec![case + 1])),
+            let reason = states[case].reason();
+            let place = *places.entry(reason).or_insert(reasons.len());
+            if place == reasons.len() {
+                reasons.push((reason, Vec::new()));
             }
+            reasons[place].1.push(case + 1);
         }
         for (reason, cases) in reasons.iter().take(TOLD) {
             let first: Vec<String> = cases.iter().take(NAMED).map(usize::to_string).collect();

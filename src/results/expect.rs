@@ -183,7 +183,11 @@ impl Expectations {
         for (watch, (fine, coarse)) in self.watches.iter_mut().zip(fine.watches.iter().zip(&coarse.watches)) {
             let histories = [&fine.pilot, &coarse.pilot];
             let at = |time: f64| histories.map(|history| Some(history.numbers_at(time, rounding)?[0]));
-            let pair = watch.sample.map(|sample| at(sample.time)).and_then(|[fine, coarse]| Some([fine?, coarse?]));
+            let value = watch.sample.map(|sample| sample.value);
+            let pair = match watch.sample.map(|sample| at(sample.time)) {
+                Some([Some(fine), Some(coarse)]) => [Some(fine), Some(coarse)],
+                _ => [value, None],
+            };
             let anywhere = histories[0].largest_differences(histories[1], 1, rounding);
             watch.mesh_error = Told::by(pair, anywhere.map(|all| all[0]), apart).error;
         }
@@ -323,7 +327,7 @@ impl Watch {
 
     /// The error estimated from the history of another run and its value at the time of either sample.
     fn told_by(&self, sample: Option<Sample>, other: &ComparedHistory, apart: f64, end_time: f64) -> Option<f64> {
-        let pair = sample.and_then(|sample| Some([sample.value, sample.other?]));
+        let pair = [sample.map(|sample| sample.value), sample.and_then(|sample| sample.other)];
         let anywhere = self.history.largest_differences(other, 1, 1e-9 * end_time);
         Told::by(pair, anywhere.map(|all| all[0]), apart).error
     }

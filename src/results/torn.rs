@@ -1,25 +1,28 @@
 //! Tables that end within a row, as a kill at the moment of writing leaves them: readers omit this row, and commands name the table.
 
 use super::disk::at;
-use std::fs::{self, File};
+use super::tables::TABLES;
+use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
 
-/// A sentence for each table of a folder whose last line has no end, in the order of their names.
+/// A sentence for each table of results in a folder whose last line has no end, in the order of their names.
 ///
 /// # Errors
-/// The folder or a table cannot be read; the error names it.
+/// A table cannot be read; the error names it.
 pub fn torn_tables(folder: &Path) -> io::Result<Vec<String>> {
     let mut torn = Vec::new();
-    for entry in fs::read_dir(folder).map_err(|e| at(folder, e))? {
-        let path = entry.map_err(|e| at(folder, e))?.path();
-        let is_table = path.extension().is_some_and(|extension| extension == "csv") && path.is_file();
-        if is_table && ends_within_a_row(&path).map_err(|e| at(&path, e))? {
-            torn.extend(path.file_name().map(|name| name.to_string_lossy().into_owned()));
+    for table in TABLES {
+        let path = folder.join(table.file);
+        match ends_within_a_row(&path) {
+            Ok(true) => torn.push(table.file),
+            Ok(false) => {}
+            Err(fault) if fault.kind() == io::ErrorKind::NotFound => {}
+            Err(fault) => return Err(at(&path, fault)),
         }
     }
-    torn.sort();
-    let sentence = |name: String| {
+    torn.sort_unstable();
+    let sentence = |name: &str| {
         format!(
             "the last line of {name} is incomplete and omitted: the run was killed, is still writing, or its disk was full. \
              Continue it by `--resume`, or run it again"

@@ -32,7 +32,7 @@ impl EnergyGrowth {
 
     /// Updates the balance; `energy` is the energy of the state, if known. Central differences have failed if they have generated more
     /// energy than was available, and much more as long as little is available. The verdict must not depend on output times: work is taken
-    /// account of in every step, and energies are summed where links may release some. Implicit schemes have failed if the kinetic energy at the
+    /// account of in every step, and energies are summed where links may release some. Other schemes have failed if the kinetic energy at the
     /// end is twice what was available.
     pub fn check(
         &mut self,

@@ -311,10 +311,14 @@ fn energy_growth(ratio: f64, scheme: Option<&str>, shortens: &str) -> String {
             "energy growth: central differences have generated {ratio:.1e} times the available energy, because their steps are too long for this \
              motion. Give half of `{shortens}`, or an implicit scheme"
         ),
-        Some(scheme) => format!(
-            "energy growth: `{scheme}` has generated {ratio:.1e} times the available energy, and the motion is lost. Give `scheme = \"bathe\"`, which \
-             dissipates motions that steps do not resolve, and a tenth of `{shortens}`"
-        ),
+        Some(scheme) => {
+            let dissipates = "`scheme = \"bathe\"`, which dissipates motions that steps do not resolve, and ";
+            let other = if scheme == "bathe" { "" } else { dissipates };
+            format!(
+                "energy growth: `{scheme}` has generated {ratio:.1e} times the available energy, and the motion is lost. Give {other}a tenth of \
+                 `{shortens}`"
+            )
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 //! while the error is too large.
 
 use super::control::{Schedule, comparison_times};
+use super::failure::Failure;
 use super::frame::{Observer, OtherRun};
 use super::global_error::{Kept, LookAhead, StepError, Trace, Unseen};
 use super::outcome::Outcome;
@@ -147,9 +148,11 @@ impl Run<'_> {
         let (outcome, state) = self.once(&mut trace, &schedule, control);
         let (predicted, run) = (trace.predicted(), trace.into_kept().with_events(self.recorder.events.met()));
         self.pilot = pilot;
-        if let Some(predicted) = predicted {
+        if let Some(predicted) = predicted.filter(|_| !matches!(outcome, Outcome::Io(_))) {
             let longest = self.pilot.iter().chain([&run]).map(Kept::longest).fold(0.0, f64::max);
-            let begun = self.begin_shorter((predicted, longest), control, observer);
+            let shorter = (control.error.in_place_of(predicted), longest);
+            let begun = self.begin_shorter(shorter, control, observer);
+            control.error.early += 1;
             return begun.err().map(|error| (Outcome::Io(error), None));
         }
         // The run fails with shorter steps, but the previous run was complete.
@@ -157,6 +160,13 @@ impl Run<'_> {
             let of_before = control.error.before;
             let begun = self.begin_again(&mut control.error, of_before, observer);
             control.under_way = UnderWay::Settled;
+            return begun.err().map(|error| (Outcome::Io(error), None));
+        }
+        // Steps by which the motion is lost tell nothing of a smaller tolerance.
+        let is_lost = matches!(&outcome, Outcome::Failed { failure: Failure::EnergyGrowth { .. }, .. });
+        if is_lost && control.error.others - control.error.early < MOST_RUNS {
+            let shorter = (control.error.without_comparison(), run.longest());
+            let begun = self.begin_shorter(shorter, control, observer);
             return begun.err().map(|error| (Outcome::Io(error), None));
         }
         let (Outcome::Done, Some(state)) = (&outcome, &state) else { return Some((outcome, state)) };
@@ -177,21 +187,18 @@ impl Run<'_> {
         }
     }
 
-    /// Prepares for a run with shorter steps in place of one with this predicted error and longest step, which has ended early.
+    /// Prepares for a run with this smaller tolerance in place of one with this longest step.
     ///
     /// # Errors
     /// As for [`Run::begin_again`].
     fn begin_shorter(
         &mut self,
-        (predicted, longest): (f64, f64),
+        (tolerance, longest): (f64, f64),
         control: &mut GlobalErrorControl,
         observer: &mut dyn Observer,
     ) -> std::io::Result<()> {
-        let tolerance = control.error.in_place_of(predicted);
         let longest = self.shortened(longest, tolerance / control.error.tolerance);
-        self.begin_again(&mut control.error, (tolerance, Some(longest)), observer)?;
-        control.error.early += 1;
-        Ok(())
+        self.begin_again(&mut control.error, (tolerance, Some(longest)), observer)
     }
 
     /// The longest step of a run whose tolerance is smaller by this factor.

@@ -150,11 +150,9 @@ impl SweepFolder {
     /// # Errors
     /// A folder of a case cannot be read.
     pub fn torn_tables(&self, states: &[CaseState]) -> io::Result<Vec<(usize, String)>> {
-        let mut torn = Vec::new();
-        for (case, _) in states.iter().enumerate().filter(|(case, state)| stands(state) && self.case(*case).is_dir()) {
-            torn.extend(torn_tables(&self.case(case))?.into_iter().map(|sentence| (case + 1, sentence)));
-        }
-        Ok(torn)
+        let of_case = |(case, _)| Ok(torn_tables(&self.case(case))?.into_iter().map(|torn| (case + 1, torn)).collect());
+        let standing = states.par_iter().enumerate().filter(|(_, state)| stands(state));
+        Ok(standing.map(of_case).collect::<io::Result<Vec<Vec<_>>>>()?.concat())
     }
 
     /// Writes the summary of the cases that stand now.

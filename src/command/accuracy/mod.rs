@@ -93,7 +93,7 @@ fn choose(loaded: &Loaded, deck: &Deck, asked: f64, (threads, stop): (usize, &At
             Ok(observed) => {
                 let mut mesh = choose_mesh(&mut pilots, groups, shares.mesh, observed);
                 report.mesh = mesh.error.filter(|_| is_mesh_known);
-                report.settings.append(&mut mesh.sets);
+                report.settings.extend(mesh.sets.iter().cloned());
                 report.remarks.append(&mut mesh.remarks);
                 if !open.is_empty() {
                     let with_mesh = (&report.settings[..], &mesh.observed);
@@ -181,7 +181,8 @@ impl ChosenSettings {
             return;
         };
         if pilots.is_automatic() {
-            let sets = [&self.report.settings[..], &coarser.sets].concat();
+            // The run with the chosen mesh had the contacts of the deck too.
+            let sets = [&mesh.sets[..], &coarser.sets].concat();
             self.pilots = [Some(mesh.observed), run.or_else(|| pilots.run(&sets).ok())];
         }
         self.coarser = Some(coarser);

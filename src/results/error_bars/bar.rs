@@ -46,14 +46,17 @@ pub struct Told {
 keep!(Told: Default { error, anywhere });
 
 impl Told {
-    /// From the values of both runs at one time, and the largest difference at any compared time. The errors of the other run are larger by
-    /// the factor `apart`.
-    pub fn by(pair: Option<[f64; 2]>, anywhere: Option<f64>, apart: f64) -> Told {
-        let at_the_time = pair.map(|[value, other]| (value - other).abs());
-        let differs = pair.is_some_and(|[value, other]| (value - other).abs() > ASYMPTOTIC * value.abs());
+    /// From the value of one run, that of the other at the same time if it is known, and the largest difference at any compared time. The
+    /// errors of the other run are larger by the factor `apart`.
+    pub fn by([value, other]: [Option<f64>; 2], anywhere: Option<f64>, apart: f64) -> Told {
+        let at_the_time = value.zip(other).map(|(value, other)| (value - other).abs());
+        let difference = value.zip(at_the_time.or(anywhere));
+        let differs = difference.is_some_and(|(value, difference)| difference > ASYMPTOTIC * value.abs());
         let apart = if differs { apart.min(2.0) } else { apart };
+        // Where the difference at the time itself is not known, the largest stands for it.
+        let share = if at_the_time.is_some() { ANYWHERE } else { AT_THE_TIME };
         let [at_the_time, anywhere] = [at_the_time, anywhere].map(|difference| difference.map(|d| d / (apart - 1.0)));
-        let bars = [at_the_time.map(|error| AT_THE_TIME * error), anywhere.map(|error| ANYWHERE * error)];
+        let bars = [at_the_time.map(|error| AT_THE_TIME * error), anywhere.map(|error| share * error)];
         Told { error: bars.into_iter().flatten().filter(|bar| bar.is_finite()).reduce(f64::max), anywhere }
     }
 }

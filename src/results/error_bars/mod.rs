@@ -148,7 +148,7 @@ impl ErrorBars {
             let anywhere = a.history.largest_differences(&b.history, table.rows.width(), self.rounding);
             let told = |(column, (a, b)): (usize, (&Option<Extreme>, &Option<Extreme>))| {
                 // Rows of elements differ between meshes, but their largest numbers agree.
-                let pair = a.as_ref().zip(b.as_ref()).map(|(a, b)| [a.value.abs(), b.value.abs()]);
+                let pair = [a, b].map(|extreme| extreme.as_ref().map(|extreme| extreme.value.abs()));
                 Told::by(pair, anywhere.as_ref().map(|all| all[column]), apart)
             };
             table.of_mesh = a.largest.0.iter().zip(&b.largest.0).enumerate().map(told).collect();
@@ -261,7 +261,8 @@ impl WatchedTable {
     fn told_by(&self, compared: &Account, other: &ComparedHistory, apart: f64, rounding: f64) -> Vec<Told> {
         let anywhere = self.seen.history.largest_differences(other, self.rows.width(), rounding);
         let told = |(column, largest): (usize, &Option<Extreme>)| {
-            let pair = largest.as_ref().and_then(|largest| Some([largest.value, largest.other?]));
+            let pair =
+                [largest.as_ref().map(|largest| largest.value), largest.as_ref().and_then(|largest| largest.other)];
             Told::by(pair, anywhere.as_ref().map(|all| all[column]), apart)
         };
         compared.largest.0.iter().enumerate().map(told).collect()

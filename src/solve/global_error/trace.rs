@@ -295,7 +295,8 @@ impl<'o> LookAhead<'o> {
         }
         let [half, whole] = [run.times / 2, run.times].map(|times| run.difference_over(pilot, extent, times));
         let end = run.end();
-        let ends = &pilot.ends[..pilot.ends.partition_point(|time| *time <= end)];
+        let rounding = 1e-9 * end.abs();
+        let ends = &pilot.ends[..pilot.ends.partition_point(|time| *time <= end + rounding)];
         let apart = run.steps_apart_from(ends);
         if apart <= TELLING || half <= 0.0 {
             return;
