@@ -189,6 +189,11 @@ fn pieces(build: &mut Build, target: &NamedTarget, line: usize) -> Vec<PartPiece
     if inside.is_empty() && !cells.is_empty() && !build.im.is_incomplete() {
         build.im.refuse(line, "this load acts on elements that are no beams, bars or shells of the deck");
     }
+    let covered: BTreeSet<usize> = inside.iter().flat_map(|piece| piece.cells.iter().copied()).collect();
+    if let Some(at) = cells.difference(&covered).next().filter(|_| !build.im.is_incomplete()) {
+        let id = build.mesh.cells[*at].id;
+        build.im.refuse(line, &format!("this load acts on element {id}, which is no beam, bar or shell of the deck"));
+    }
     inside
 }
 

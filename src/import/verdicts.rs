@@ -2,7 +2,7 @@
 
 use base::diagnostic::{Diagnostic, Severity};
 use base::text_file::{Fault, Text, Word};
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// The verdict on a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -67,6 +67,8 @@ pub struct Verdicts {
     judged: HashSet<Option<usize>>,
     /// Those that are refused.
     refused: HashSet<Option<usize>>,
+    /// Lines that are one load with an earlier line, and share what is said of it.
+    joined: HashMap<usize, Vec<usize>>,
 }
 
 impl Verdicts {
@@ -80,8 +82,20 @@ impl Verdicts {
         self.keywords.partition_point(|(first, _)| *first <= line).checked_sub(1)
     }
 
-    /// Adds a verdict on a line. One sentence about several lines of a keyword is reported once.
+    /// Makes a line share the verdicts on another.
+    pub fn join(&mut self, first: usize, line: usize) {
+        self.joined.entry(first).or_default().push(line);
+    }
+
+    /// Adds a verdict on a line, and on those joined with it.
     pub fn add(&mut self, text: &Text, verdict: KeywordVerdict, line: usize, said: Option<Fault>, about: String) {
+        let joined = self.joined.get(&line).cloned().unwrap_or_default();
+        joined.into_iter().for_each(|other| self.add_one(text, verdict, other, None, about.clone()));
+        self.add_one(text, verdict, line, said, about);
+    }
+
+    /// Adds a verdict on a line. One sentence about several lines of a keyword is reported once.
+    fn add_one(&mut self, text: &Text, verdict: KeywordVerdict, line: usize, said: Option<Fault>, about: String) {
         let of = self.keyword(line);
         if !self.known.insert((of, verdict, about.clone())) {
             return;

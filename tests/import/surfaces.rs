@@ -175,6 +175,29 @@ fn loads_of_single_elements() {
     assert_eq!(tables(&made.deck).matches("[[loads]]").count(), 2, "{}", made.deck);
 }
 
+/// Elements that are no parts keep their own lines, and joined lines share what is said of their load.
+#[test]
+fn loads_of_single_elements_that_are_refused() {
+    let rigid = "1, 1, 2, 3, 4\n*ELEMENT, TYPE=R3D4, ELSET=stiff\n9, 1, 2, 3, 4\n*ELSET, ELSET=both\n1, 9\n*RIGID BODY, ELSET=stiff, REF NODE=1";
+    let with = |loads: &str| edited(SHELL, &[("1, 1, 2, 3, 4", rigid), ("*CLOAD\n3, 3, 5.", loads)]);
+    let text = with("*DLOAD\n1, P, 8.\n*DLOAD\n9, P, 8.");
+    let line = 1 + text.lines().position(|line| line == "9, P, 8.").unwrap();
+    let said = refusals(&imported(&text));
+    let wanted = format!("{line} *DLOAD: this load acts on elements that are no beams, bars or shells of the deck");
+    assert!(said.contains(&wanted), "{said:?}");
+    refuses(&with("*DLOAD\nboth, P, 8."), &[], "acts on element 9, which is no beam, bar or shell");
+    let two = edited(
+        SHELL,
+        &[
+            ("4, 0., 1., 0.\n", "4, 0., 1., 0.\n5, 0., 3., 0.\n6, 1., 3., 0.\n"),
+            ("1, 1, 2, 3, 4\n", "1, 1, 2, 3, 4\n2, 4, 3, 6, 5\n"),
+            ("*CLOAD\n3, 3, 5.", "*DLOAD\n1, HP, 8.\n*DLOAD\n2, HP, 8."),
+        ],
+    );
+    let said = refusals(&imported(&two));
+    assert_eq!(said.iter().filter(|said| said.ends_with("loads of kind HP are not translated")).count(), 2, "{said:?}");
+}
+
 /// Tractions on faces have a direction in space.
 #[test]
 fn tractions_on_faces() {
