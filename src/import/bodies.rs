@@ -66,9 +66,9 @@ pub fn bodies(build: &mut Build) {
     if cards.is_empty() {
         return;
     }
-    let masses = point_masses(build);
+    let (masses, marks) = (point_masses(build), contacts::marks(build));
     for card in cards {
-        body(build, &card, &masses);
+        body(build, &card, &masses, &marks);
     }
 }
 
@@ -82,7 +82,7 @@ struct BodyNodes {
     touches: bool,
 }
 
-fn nodes_of(build: &mut Build, card: &RigidCard) -> BodyNodes {
+fn nodes_of(build: &mut Build, card: &RigidCard, marks: &[BTreeSet<usize>]) -> BodyNodes {
     let collect = |build: &mut Build, targets: &[NamedTarget]| -> BTreeSet<u64> {
         targets.iter().flat_map(|target| build.nodes(target)).collect()
     };
@@ -91,13 +91,13 @@ fn nodes_of(build: &mut Build, card: &RigidCard) -> BodyNodes {
         tied.extend(surfaces::nodes_of(build, surface).unwrap_or_default());
     }
     let cells: BTreeSet<usize> = card.cells.iter().flat_map(|target| build.cells(target)).collect();
-    let touches = contacts::marks(build).iter().any(|mark| !mark.is_disjoint(&cells));
+    let touches = marks.iter().any(|mark| !mark.is_disjoint(&cells));
     let (mut of_parts, mut parts) = (BTreeSet::new(), Vec::new());
     for piece in build.pieces.iter().filter(|piece| piece.is_rigid && piece.cells.is_subset(&cells)) {
         of_parts.extend(piece.elements.iter().flat_map(|element| element.2.iter().copied()));
         parts.extend(piece.names.iter().cloned());
     }
-    let (faces, of_faces) = faces(build, card, &cells);
+    let (faces, of_faces) = faces(build, card, &cells, marks);
     parts.extend(faces);
     if !parts.iter().all(|part| build.parts_of_bodies.insert(part.clone())) {
         build.im.refuse(card.line, "some of these elements are in another rigid body");
@@ -113,10 +113,15 @@ fn nodes_of(build: &mut Build, card: &RigidCard) -> BodyNodes {
 }
 
 /// Adds rigid elements in contact as a shell next to nothing thick and heavy; returns its name and nodes.
-fn faces(build: &mut Build, card: &RigidCard, cells: &BTreeSet<usize>) -> (Option<String>, BTreeSet<u64>) {
+fn faces(
+    build: &mut Build,
+    card: &RigidCard,
+    cells: &BTreeSet<usize>,
+    marks: &[BTreeSet<usize>],
+) -> (Option<String>, BTreeSet<u64>) {
     let is_rigid = |at: &usize| build.im.scopes.types[build.mesh.cells[*at].kind].becomes == ElementUse::RigidFace;
     let rigid: BTreeSet<usize> = cells.iter().copied().filter(is_rigid).collect();
-    let touched: BTreeSet<usize> = contacts::marks(build).into_iter().flatten().collect();
+    let touched: BTreeSet<usize> = marks.iter().flatten().copied().collect();
     let of: BTreeSet<usize> =
         rigid.intersection(&touched).copied().filter(|at| build.mesh.cells[*at].nodes.len() > 2).collect();
     if let Some(&first) = rigid.difference(&of).next() {
@@ -155,9 +160,9 @@ fn faces(build: &mut Build, card: &RigidCard, cells: &BTreeSet<usize>) -> (Optio
     (Some(name), nodes)
 }
 
-fn body(build: &mut Build, card: &RigidCard, masses: &BTreeMap<u64, PointMass>) {
+fn body(build: &mut Build, card: &RigidCard, masses: &BTreeMap<u64, PointMass>, marks: &[BTreeSet<usize>]) {
     let Some(reference) = build.node(&card.reference) else { return };
-    let BodyNodes { mut tied, pinned, own, parts, touches } = nodes_of(build, card);
+    let BodyNodes { mut tied, pinned, own, parts, touches } = nodes_of(build, card, marks);
     if let Some(target) = &card.rotations
         && let Some(node) = build.node(target)
     {

@@ -172,7 +172,7 @@ fn shape_of(build: &mut Build, cell: &PlacedElement, card: &SectionCard, becomes
     };
     let yields = build.im.materials.find(&card.material).is_some_and(|material| !material.plastic.is_empty());
     if yields && keys.contains(&("shape", SectionValue::Word("general"))) {
-        let why = "this section is known by its integrals alone, and stays elastic: leave *PLASTIC out, or give RECT, CIRC, PIPE, BOX, I or L";
+        let why = "this section is known by its integrals alone, and stays elastic: leave *PLASTIC out, or give RECT, CIRC, PIPE, BOX of like walls, I or L";
         build.im.refuse(card.line, why);
         return None;
     }
