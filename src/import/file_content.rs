@@ -225,6 +225,8 @@ pub struct PretensionCard {
     pub node: NamedTarget,
     /// The normal of the section; `None` along the beam.
     pub normal: Option<Vec3>,
+    /// True where the normal turns with the beam.
+    pub is_follower: bool,
 }
 
 /// All constraints of a file.

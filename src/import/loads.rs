@@ -191,12 +191,12 @@ pub fn in_time(table: DeckTable, law: Option<&TimeLaw>) -> DeckTable {
 pub fn velocities(build: &mut Build) {
     let mut of_node: BTreeMap<u64, ([f64; 6], BTreeSet<usize>)> = BTreeMap::new();
     let all = build.im.steps.velocities.clone();
-    let still = |line: &usize| all.iter().filter(|of| of.0 == *line).all(|of| of.3 == 0.0);
     for (line, target, dof, value) in &all {
-        if still(line) {
+        if *value == 0.0 {
             build.im.ignore(*line, "all begins at rest");
         }
-        for node in build.nodes(target) {
+        let nodes = build.nodes(target);
+        for node in pretension::with_ends(build, nodes) {
             if build.mesh.used.contains(&node) {
                 let entry = of_node.entry(node).or_default();
                 entry.0[*dof] = *value;

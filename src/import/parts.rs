@@ -10,6 +10,7 @@ use crate::harmonics;
 use crate::material_cards;
 use crate::nodal_numbers::by_nodes;
 use crate::part_piece::PartPiece;
+use crate::pretension;
 use crate::scopes::{NamedTarget, PlacedElement};
 use crate::temperatures;
 use base::math::Vec3;
@@ -138,8 +139,8 @@ fn marks(build: &mut Build) -> Vec<BTreeSet<usize>> {
     let mut marks: Vec<BTreeSet<usize>> = found.map(|cells| cells.into_iter().collect()).collect();
     marks.extend(contacts::marks(build));
     for target in temperatures::targets(build.im).iter().filter(|_| build.im.is_heated()) {
-        let nodes: BTreeSet<u64> =
-            build.mesh.node_ids(&build.im.scopes, target).unwrap_or_default().into_iter().collect();
+        let nodes = build.mesh.node_ids(&build.im.scopes, target).unwrap_or_default();
+        let nodes: BTreeSet<u64> = pretension::with_ends(build, nodes).into_iter().collect();
         let cells = build.mesh.cells.iter().enumerate();
         marks.push(
             cells.filter(|(_, cell)| cell.nodes.iter().all(|node| nodes.contains(node))).map(|of| of.0).collect(),

@@ -8,6 +8,7 @@ use crate::keyword_block::KeywordBlock;
 use crate::loads::{in_time, lines_of};
 use crate::nodal_numbers::by_nodes;
 use crate::part_piece::PartPiece;
+use crate::pretension;
 use crate::scopes::NamedTarget;
 use crate::timeline::{GivenValue, InStep, TimeLaw, histories};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -106,7 +107,9 @@ pub fn heat(build: &mut Build) {
 fn at_nodes(build: &mut Build, lines: &[TemperatureLine]) -> HashMap<u64, TemperatureLine> {
     let mut of_node = HashMap::new();
     for line in lines {
-        of_node.extend(build.nodes(&line.target).into_iter().map(|node| (node, line.clone())));
+        let nodes = build.nodes(&line.target);
+        let nodes = pretension::with_ends(build, nodes);
+        of_node.extend(nodes.into_iter().map(|node| (node, line.clone())));
     }
     of_node
 }
