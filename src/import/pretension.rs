@@ -11,27 +11,13 @@ use crate::file_content::{PretensionCard, StepProcedure};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::scopes::{NamedTarget, PlacedElement, ScopeIndex};
+use crate::tied_nodes::Cut;
 use crate::timeline::{GivenValue, InStep, TimeLaw, histories};
 use base::math::Vec3;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Cosine of the largest angle between a beam and the normal of its section.
 const ALONG: f64 = 0.99;
-
-/// A cut through a beam.
-#[derive(Debug, Clone)]
-pub struct Cut {
-    /// The line of its section.
-    line: usize,
-    /// The pre-tension node.
-    node: u64,
-    /// The node that stays with the rest, and the new end of the beam.
-    ends: [u64; 2],
-    /// The normal, out of the beam.
-    axis: Vec3,
-    /// 1, or −1 where the normal of the file points into the beam: what tightens then pushes.
-    sense: f64,
-}
 
 /// `*PRE-TENSION SECTION`.
 pub fn section(im: &mut Importer, block: &KeywordBlock) {

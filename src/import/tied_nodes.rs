@@ -1,6 +1,5 @@
 //! Constraints on nodes: local axes, equations, couplings that spread forces.
 
-use crate::pretension::Cut;
 use base::math::{Mat3, Vec3};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -77,4 +76,19 @@ pub struct TiedNodes {
     pub equations: Vec<NodalEquation>,
     /// Nodes of distributing couplings, by their reference node.
     pub distributed: HashMap<u64, DistributedNodes>,
+}
+
+/// A cut through a beam.
+#[derive(Debug, Clone)]
+pub struct Cut {
+    /// The line of its section.
+    pub line: usize,
+    /// The pre-tension node.
+    pub node: u64,
+    /// The node that stays with the rest, and the new end of the beam.
+    pub ends: [u64; 2],
+    /// The normal, out of the beam.
+    pub axis: Vec3,
+    /// 1, or −1 where the normal of the file points into the beam: what tightens then pushes.
+    pub sense: f64,
 }
