@@ -692,7 +692,7 @@ fn isolators() {
             "{pendulum}\n{axes}\nfriction = 0.1\nyield_force = 1e3\ndirection = [0.0, 0.0, 1.0]\ndamping = 10.0\npretension = 5.0"
         ),
         format!("{rubber}\n{axes}"),
-        format!("{rubber}\n{axes}\npost_yield_stiffness = 2e6\nradius = 1.0"),
+        format!("{rubber}\n{axes}\npost_yield_stiffness = 2e6\nradius = 1.0\nhardening = \"isotropic\""),
         format!("{rubber}\n{axes}\npost_yield_stiffness = 2e5\nbushing = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0]"),
         "stiffness = 1e6\nradius = 1e3".to_owned(),
     ];

@@ -182,6 +182,12 @@ impl Deck {
         PartKind::ALL.into_iter().flat_map(of_kind)
     }
 
+    /// The names that an entry of a list of parts stands for: those of a set, or its own.
+    pub fn members<'d>(&'d self, entry: &'d At<String>) -> Vec<&'d At<String>> {
+        let set = self.sets.0.iter().find(|(set, _)| set.value == entry.value);
+        set.map_or_else(|| vec![entry], |(_, set)| set.values.iter().collect())
+    }
+
     /// A part by its index; `None` beyond the last of its kind.
     pub fn part(&self, at: PartIndex) -> Option<DeckPart<'_>> {
         match at.kind {

@@ -3,7 +3,9 @@
 //! Points of the deck belong to the interface. So do nodes of other parts, bodies, joints, supports, point loads, dampers and stops. Spread loads
 //! and weight act on inner nodes by the shapes. Outputs and expected values follow from these as well.
 
-use super::data::{LoadOrigin, Model, Node, Part, Reduction};
+mod pieces;
+
+use super::data::{Beam, LoadOrigin, Model, Node, Part, PartType, Reduction};
 use super::plausibility::unused::visit_actors;
 use super::report::Report;
 use base::diagnostic::{At, Span};
@@ -61,9 +63,7 @@ fn part_set<'d>(deck: &'d Deck, index: usize, others: &[Asked], report: &mut Rep
     let (list, extent) = (list?, extent?);
     let mut parts: Vec<DeckPart> = Vec::new();
     for member in &list.values {
-        let set = deck.sets.0.iter().find(|(set, _)| set.value == member.value);
-        let names = set.map_or_else(|| vec![member], |(_, set)| set.values.iter().collect());
-        for name in names {
+        for name in deck.members(member) {
             let part = member_part(deck, name, report)?;
             let is_other = |other: &DeckPart| other.at == part.at;
             if parts.iter().chain(others.iter().flat_map(|other| &other.parts)).any(is_other) {
@@ -110,11 +110,24 @@ fn acting_nodes(model: &mut Model) -> BTreeSet<usize> {
 fn reduction(model: &mut Model, of: &Asked, acting: &BTreeSet<usize>, report: &mut Report) -> Option<Reduction> {
     let (asked, title) = (of.extent, &of.title);
     let (modes, up_to) = extent(asked, report)?;
-    let is_own =
-        |other: &Part| of.parts.iter().any(|part| other.kind() == part.at.kind && other.name() == part.label());
-    let parts: Vec<usize> = (0..model.parts.len()).filter(|&index| is_own(&model.parts[index])).collect();
+    let mut parts: Vec<usize> = Vec::new();
     for part in &of.parts {
-        refuse(model, part, &parts, &asked.span, report)?;
+        let is_own = |other: &Part| other.kind() == part.at.kind && other.name() == part.label();
+        let own: Vec<usize> = (0..model.parts.len()).filter(|&index| is_own(&model.parts[index])).collect();
+        refuse(model, part, &own, &asked.span, report)?;
+        parts.extend(own);
+    }
+    parts.sort_unstable();
+    if let Some([a, b]) = pieces::apart(model, &parts) {
+        let [a, b] = [a, b].map(|node| &model.nodes[node].label);
+        let message = format!(
+            "{title} is in several pieces: no element leads from `{a}` to `{b}`, and its shapes have one frame"
+        );
+        return report.error_with(
+            &asked.span,
+            message,
+            "reduce them one by one: give each piece a `reduced` of its own",
+        );
     }
     let nodes_of = |part: &Part| -> Vec<usize> {
         (0..part.elements()).flat_map(|element| part.nodes(element).to_vec()).chain(part.touched_nodes()).collect()
@@ -188,7 +201,7 @@ fn refuse(model: &Model, part: &DeckPart, parts: &[usize], place: &Span, report:
     let title = part.title();
     let own = || parts.iter().map(|&index| &model.parts[index]);
     let is_turning = || model.loading.centrifugal.iter().any(|load| load.of.parts.iter().any(|of| parts.contains(of)));
-    let faults: [(bool, String, &str); 6] = [
+    let faults: [(bool, String, &str); 7] = [
         (
             part.is_rigid(),
             format!("{title} is `rigid` and `reduced`"),
@@ -210,6 +223,11 @@ fn refuse(model: &Model, part: &DeckPart, parts: &[usize], place: &Span, report:
             "give `mass` = \"lumped\" or \"consistent\"",
         ),
         (
+            own().filter_map(Beam::of).any(|beam| has_mass_beside_the_axis(model, beam)),
+            format!("the mass of {title} lies beside its nodes, and reduced shapes have none there"),
+            "leave `reduced` out, or the section's `offset`, and put the centre of its mass on the axis",
+        ),
+        (
             is_turning(),
             format!("a centrifugal load does not act on {title}, which is reduced"),
             "leave `reduced` out, or let a support with a `motion` turn all in dynamics",
@@ -225,6 +243,11 @@ fn refuse(model: &Model, part: &DeckPart, parts: &[usize], place: &Span, report:
     }
     // A part with errors has no elements.
     (!parts.is_empty()).then_some(())
+}
+
+/// True where a section of a beam has its mass beside the axis.
+fn has_mass_beside_the_axis(model: &Model, beam: &Beam) -> bool {
+    beam.mass != MassKind::None && beam.sections().any(|section| model.stiffnesses[section].mass_center != [0.0; 2])
 }
 
 /// A node for each amplitude.

@@ -942,9 +942,9 @@ pub mod reduction {
     /// Difference between the initial velocity of an inner node and that of the static shapes, as a part of the largest. Shapes of
     /// ill-conditioned parts have 1e-8.
     pub const CARRIED: f64 = 1e-6;
-    /// Difference of matrices of parts that are alike, as a part of the largest entry: rounding of their places.
+    /// Difference of matrices of parts that are alike, as a part of the entry of the diagonal or the mass: rounding of their places.
     pub const ALIKE: f64 = 1e-10;
-    /// Most unknowns of an interface: each of twelve matrices over them has 32 MB.
+    /// Most unknowns of an interface: with 500 modes each of twelve matrices over both has 50 MB.
     pub const MOST: usize = 2000;
     /// Unknowns of an interface that are few, even if they are more than the unknowns inside.
     pub const FEW: usize = 300;

@@ -85,7 +85,7 @@ fn check(model: &Model, quantities: &[Quantity], candidates: &[Candidate]) -> Re
         problems.push(Diagnostic::error("there is nothing to measure errors on").hint(hint));
     }
     if candidates.is_empty() {
-        problems.push(Diagnostic::error("the deck has no part that deforms").hint("remove `rigidify`"));
+        problems.push(Diagnostic::error("the deck has no part that deforms by itself").hint("remove `rigidify`"));
     }
     if problems.is_empty() { Ok(()) } else { Err(StudyFault::Deck(problems)) }
 }
@@ -136,14 +136,17 @@ fn part(candidate: Candidate, run: Option<StudyRun>, base: &StudyRun, shares: &S
     AdvisedPart { kind: candidate.kind, name: candidate.name, form: candidate.form, peak_share, mean_share, run }
 }
 
-/// The parts that deform, and belong to no body.
+/// The parts that deform, and belong neither to a body nor to `[[parts]]`.
 fn candidates(deck: &Deck) -> Vec<Candidate> {
     let bodies = deck.bodies.iter().filter_map(|body| body.parts.as_ref());
     let of_bodies: Vec<&str> = bodies.flat_map(|parts| &parts.values).map(|name| name.as_str()).collect();
+    let of_sets = deck.part_sets.iter().filter_map(|set| set.parts.as_ref()).flat_map(|parts| &parts.values);
+    let of_sets: Vec<_> = of_sets.flat_map(|entry| deck.members(entry)).collect();
     let is_candidate = |part: &DeckPart| {
         (part.at.kind.is_line() || part.at.kind.is_surface())
             && !part.is_rigid()
             && !of_bodies.contains(&part.label().as_str())
+            && !of_sets.iter().any(|name| part.is_named(name))
     };
     let forms = |part: DeckPart| {
         let reduced = MODES.map(|modes| format!("reduced = {modes}"));

@@ -285,6 +285,9 @@ fn said(text: &str) -> String {
         .join("\n")
 }
 
+/// A section beside the axis.
+const BESIDE: &str = "stations = [{ at = 0.0, section = \"bar\", offset = [0.01, 0.0] }, { at = 1.0, section = \"bar\", offset = [0.01, 0.0] }]\n";
+
 #[test]
 fn what_shapes_do_not_have_is_refused() {
     let dynamic = "[analysis]\nkind = \"dynamic\"\nend_time = 1.0\ntime_step = 0.01\n";
@@ -298,6 +301,10 @@ fn what_shapes_do_not_have_is_refused() {
         (format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = {}")), "`reduced` is empty"),
         (format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = { up_to = -1.0 }")), "must be above zero"),
         (format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = 5\nmass = \"free-nodes\"")), "free-nodes"),
+        (
+            format!("{dynamic}{}", arm.replace("section = \"bar\"\n", BESIDE)),
+            "the mass of beam `arm` lies beside its nodes",
+        ),
         (format!("{dynamic}{yielding}"), "yields, and reduced shapes are elastic"),
         (
             format!("{dynamic}[integrator]\nscheme = \"central-difference\"\n{arm}"),

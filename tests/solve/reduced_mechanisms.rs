@@ -4,6 +4,7 @@ use crate::support::{assert_says_what_to_change, read_deck, run_to_the_end, tabl
 use rdsolve::diagnostic::Source;
 use rdsolve::model;
 use rdsolve::solve::Frame;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 const STEEL: &str =
@@ -183,6 +184,34 @@ fn parts_are_reduced_together() {
     assert_eq!(few, frequencies(&sets));
 }
 
+/// The panels with a hinge at each end of their edge in place of common nodes.
+fn apart() -> String {
+    let hinge = |a: &str, b: &str| {
+        format!(
+            "[[joints]]\nname = \"at {a}\"\nkind = \"ball\"\nfrom = {{ node = \"{a}\" }}\nto = {{ node = \"{b}\" }}\n"
+        )
+    };
+    panels("", TOGETHER)
+        .replace("e = [", "b2 = [0.3, 0.0, 0.0]\nc2 = [0.3, 0.4, 0.1]\ne = [")
+        .replace("[\"b\", \"e\", \"f\", \"c\"]", "[\"b2\", \"e\", \"f\", \"c2\"]")
+        + &hinge("b", "b2")
+        + &hinge("c", "c2")
+}
+
+/// A stiffener beside a panel, on rigid arms, is one with it.
+#[test]
+fn rigid_arms_join_pieces() {
+    let stiffener = format!(
+        "{STEEL}[sections.rib]\nshape = \"rectangle\"\nheight = 0.02\nwidth = 0.004\n[[beams]]\nname = \"rib\"\npath = [\"b\", \"c\"]\n\
+         elements = 4\nsection = \"rib\"\nmaterial = \"steel\"\norientation = [0.0, 0.0, 1.0]\noffset_start = [0.0, 0.0, -0.01]\n\
+         offset_end = [0.0, 0.0, -0.01]\n"
+    );
+    let list = TOGETHER.replace("\"left\", ", "\"rib\", \"left\", ");
+    let (full, few) = (frequencies(&panels("", &stiffener)), frequencies(&panels("", &(stiffener.clone() + &list))));
+    // As without the stiffener.
+    assert!(few.iter().zip(&full).all(|(few, full)| (-1e-8..5e-3).contains(&(few / full - 1.0))), "{few:?} {full:?}");
+}
+
 #[test]
 fn wrong_lists_of_parts_are_refused() {
     let said = |text: &str| {
@@ -201,10 +230,46 @@ fn wrong_lists_of_parts_are_refused() {
             panels("", TOGETHER).replacen("thickness = 0.003", "thickness = 0.003\ndamping = { beta = 1e-3 }", 1),
             "different `damping`",
         ),
+        (apart(), "parts `roof` is in several pieces: no element leads from `a` to `b2`"),
+        (
+            panels("", TOGETHER)
+                .replace("[3, 4]\nthickness = 0.003", "[3, 4]\nmass = \"free-nodes\"\nthickness = 0.003"),
+            "shell `right`",
+        ),
     ];
     for (text, expected) in cases {
         let said = said(&text);
         assert!(said.contains(expected), "{expected}: {said}");
+    }
+}
+
+/// A soft wire on a stiff panel tells parts apart.
+#[test]
+fn soft_members_tell_parts_apart() {
+    let pair = |y: f64, name: &str, torsion: f64| {
+        let points = format!(
+            "{name}0 = [0.0, {y}, 0.0]\n{name}1 = [0.3, {y}, 0.0]\n{name}2 = [0.3, {}, 0.0]\n{name}3 = [0.0, {}, 0.0]\n{name}4 = [0.6, {y}, 0.0]\n",
+            y + 0.2,
+            y + 0.2
+        );
+        let parts = format!(
+            "[sections.{name}]\nshape = \"general\"\naxial_stiffness = 1e6\nshear_stiffness = [1e5, 1e5]\n\
+             torsional_stiffness = {torsion}\nbending_stiffness = [10.0, 10.0]\n[[shells]]\nname = \"{name}_panel\"\ncorners = [\"{name}0\", \"{name}1\", \"{name}2\", \"{name}3\"]\n\
+             elements = [3, 2]\nthickness = 0.02\nmaterial = \"steel\"\n[[beams]]\nname = \"{name}_wire\"\npath = [\"{name}1\", \"{name}4\"]\nelements = 3\n\
+             section = \"{name}\"\norientation = [0.0, 1.0, 0.0]\nmass = \"none\"\n\
+             [[parts]]\nname = \"{name}\"\nparts = [\"{name}_panel\", \"{name}_wire\"]\nreduced = 3\n[[supports]]\nat = \"{name}0\"\nfix = \"all\"\n\
+             [[masses]]\nat = \"{name}4\"\nmass = 0.1\ninertia = [1e-4, 1e-4, 1e-4]\n"
+        );
+        (points, parts)
+    };
+    // A tenth of the torsion is some 1e-13 of the largest entry of the panel.
+    let pairs = [pair(0.0, "p", 1e-3), pair(1.0, "q", 1.1e-3), pair(2.0, "r", 1e-3)];
+    let (points, parts): (String, String) = pairs.into_iter().unzip();
+    let [first, second, third, ..] = frequencies(&format!("{STEEL}[points]\n{points}{parts}"))[..] else { panic!() };
+    // The disks turn on their wires: ω² = GJ/(L I). Measured 4e-8.
+    let of_wire = |torsion: f64| (torsion / (0.3 * 1e-4)).sqrt() / TAU;
+    for (found, torsion) in [(first, 1e-3), (second, 1e-3), (third, 1.1e-3)] {
+        assert!((found / of_wire(torsion) - 1.0).abs() < 1e-6, "{first} {second} {third}");
     }
 }
 

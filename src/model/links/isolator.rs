@@ -26,8 +26,8 @@ pub fn isolator<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Repor
     let is_pendulum = link.law.as_ref().is_some_and(|law| law.value == words::LinkLaw::FrictionPendulum);
     let what = if is_pendulum { "the law \"friction-pendulum\"" } else { "the law \"lead-rubber\"" };
     let others = keys!(
-        link; gap, preload, points, failure, backbone, exponent, unloading, strength_loss, stiffness_loss, deterioration, pinching, free_length,
-        direction, bushing_damping
+        link; gap, preload, points, failure, backbone, hardening, exponent, unloading, strength_loss, stiffness_loss, deterioration, pinching,
+        free_length, direction, bushing_damping
     );
     report.reject_unused(what, &others);
     if let Some(place) = dashpot(link) {

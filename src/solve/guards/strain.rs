@@ -26,7 +26,7 @@ fn look(cx: &Context, warnings: &mut Warnings, state: &State) {
     for following in cx.system.following() {
         let turn = following.rotation(&state.nodes);
         if turn > BENT {
-            warnings.bend(cx.model.parts[following.part].name(), true, turn);
+            warnings.bend(&following.name, true, turn);
         }
     }
     for group in &cx.system.groups {

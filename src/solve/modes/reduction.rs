@@ -4,7 +4,7 @@
 //! With Φ = [Ψ φ] the matrices are Φᵀ K Φ and Φᵀ M Φ (R. R. Craig, M. C. C. Bampton, AIAA J. 6 (1968) 1313-1319). They keep the rigid motions,
 //! the static stiffness and the mass of the part. K and M are those of the part at t = 0, without loads.
 
-use super::alike::{Known, Likeness};
+use super::alike::{Known, Likeness, may_be_like_another};
 use super::fault::ModesFault;
 use super::linearized::Linearized;
 use super::modal::natural_pairs;
@@ -156,7 +156,7 @@ fn reduced(model: &Model, of: &Reduction, known: &mut Known) -> Result<Arc<Reduc
         stop: &never,
     };
     let own = OwnNodes::new(of, own.nodes.len());
-    let likeness = (model.reductions.len() > 1).then(|| Likeness::new(&at, model, of, &own));
+    let likeness = may_be_like_another(model, of).then(|| Likeness::new(&at, model, of, &own));
     if let Some(made) = likeness.as_ref().and_then(|likeness| likeness.find(known, of)) {
         return Ok(Arc::new(made));
     }

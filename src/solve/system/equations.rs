@@ -177,7 +177,7 @@ impl System {
         let rigid_links =
             model.constraints.dependents.iter().map(|r| RigidLink::new(r.node, r.master, &x, r.dofs)).collect();
         let rigid_links = rigid_link::sorted(rigid_links, x.len()).ok_or("the attachments form a cycle")?;
-        let following = model.reductions.iter().map(|of| FollowingNodes::new(model, of, &x)).collect::<Option<_>>();
+        let following = model.reductions.iter().map(|of| FollowingNodes::new(of, &x)).collect::<Option<_>>();
         let following: Vec<FollowingNodes> =
             following.ok_or("the matrices of a reduced part have not been computed")?;
         let (mut inertias, consistent) = build::masses(model, &x);

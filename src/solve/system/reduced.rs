@@ -14,18 +14,17 @@ use std::sync::Arc;
 pub struct FollowingNodes {
     element: Arc<FloatingElement>,
     inner: InnerNodes,
-    /// The first of the parts, by its index in [`Model::parts`].
-    pub part: usize,
+    /// The deck's name of the part, or of the parts that are reduced together.
+    pub name: String,
 }
 
 impl FollowingNodes {
     /// The inner nodes of a reduced part; `None` before its matrices have been computed.
-    pub fn new(model: &Model, of: &Reduction, x: &[Vec3]) -> Option<FollowingNodes> {
+    pub fn new(of: &Reduction, x: &[Vec3]) -> Option<FollowingNodes> {
         let made = of.made.as_ref()?;
         let element = FloatingElement::new(made.matrices.clone(), x, 0.0);
         let inner = InnerNodes::new(&element, &of.inner, x, made.shapes.clone());
-        debug_assert!(of.parts.iter().all(|&part| part < model.parts.len()));
-        Some(FollowingNodes { element: Arc::new(element), inner, part: of.parts[0] })
+        Some(FollowingNodes { element: Arc::new(element), inner, name: of.name.clone() })
     }
 
     /// The nodes.

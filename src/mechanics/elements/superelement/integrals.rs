@@ -4,8 +4,8 @@
 //! interface and the angular velocity Ω of the frame, along its axes, the kinetic energy is
 //!   T = ½ m V² + V·(Ω × s + S q̇) + ½ Ω·J Ω + Ω·(N q̇ + Σ q_k B_kl q̇_l) + ½ q̇ᵀ M q̇,
 //! where s = s₀ + S q and J = J₀ + Σ J_k q_k + Σ J_kl q_k q_l (A. A. Shabana, Dynamics of Multibody Systems, 2013, chapter 5). The masses of
-//! translations enter exactly, and rotary inertia up to the second power of ψ. One term of rotary inertia is left out: that of Ω̇ and ψ²
-//! where the inertia differs from axis to axis. Forces follow from Lagrange's equations, so momenta and energy are those of T:
+//! translations enter exactly, and rotary inertia by the terms of second order in ψ but one: ½ Ω·(ψ × Jψ̇ + ψ̇ × Jψ), which vanishes where the
+//! inertia is the same about all axes. Forces follow from Lagrange's equations, so momenta and energy are those of T:
 //!   F = ṗ + Ω × p,  h = L̇ + Ω × L + V × p,  g = d/dt ∂T/∂q̇ − ∂T/∂q.
 
 use super::recovery::FrameMotion;
