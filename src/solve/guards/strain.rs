@@ -33,7 +33,8 @@ fn look(cx: &Context, warnings: &mut Warnings, state: &State) {
         let own = group.configuration(&now);
         let turn = group.block.local_rotation(&own);
         if turn > BENT {
-            warnings.bend(group.part_of(0, cx.model).name(), group.reduces, turn);
+            let of = cx.model.reduction(group.part);
+            warnings.bend(of.map_or(group.part_of(0, cx.model).name(), |of| &of.name), group.reduces, turn);
         }
         group.block.surface_strains(&own, &mut |e, strain, is_logarithmic| {
             let [least, most] = if is_logarithmic { LARGE_LOGARITHMIC } else { [-LARGE, LARGE] };
