@@ -4,10 +4,8 @@ use std::cell::OnceCell;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 
-use super::beams::paths::MOST_IN_SEGMENT;
 use super::data::Part;
 use super::report::Report;
-use super::shells::MOST_IN_PATCH;
 use base::diagnostic::Span;
 use base::math::Mat3;
 use deck::Deck;
@@ -15,6 +13,9 @@ use deck::parts::PartIndex;
 use linear::available_memory;
 use mechanics::sections::{SectionStresses, Stiffness};
 
+/// Largest number of elements in a segment, and in a patch; more are taken for a typing error, and would exhaust memory.
+pub(super) const MOST_IN_SEGMENT: u64 = 1_000_000;
+pub(super) const MOST_IN_PATCH: usize = 1_000_000;
 /// Least memory of an element in bytes, with its nodes and its part of the matrix before factorization.
 const BYTES: f64 = 4e3;
 /// Fewer elements are not compared with the free memory: the answer takes 0.1 ms, which is felt in sweeps of small cases.

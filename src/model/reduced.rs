@@ -5,7 +5,7 @@
 
 mod pieces;
 
-use super::data::{Beam, LoadOrigin, Model, Node, Part, PartType, Reduction};
+use super::data::{Beam, LoadOrigin, Model, Node, OwnDamping, Part, PartType, Reduction};
 use super::plausibility::unused::visit_actors;
 use super::report::Report;
 use base::diagnostic::{At, Span};
@@ -118,17 +118,7 @@ fn reduction(model: &mut Model, of: &Asked, acting: &BTreeSet<usize>, report: &m
         parts.extend(own);
     }
     parts.sort_unstable();
-    if let Some([a, b]) = pieces::apart(model, &parts) {
-        let [a, b] = [a, b].map(|node| &model.nodes[node].label);
-        let message = format!(
-            "{title} is in several pieces: no element leads from `{a}` to `{b}`, and its shapes have one frame"
-        );
-        return report.error_with(
-            &asked.span,
-            message,
-            "reduce them one by one: give each piece a `reduced` of its own",
-        );
-    }
+    refuse_pieces(model, of, &parts, report)?;
     let nodes_of = |part: &Part| -> Vec<usize> {
         (0..part.elements()).flat_map(|element| part.nodes(element).to_vec()).chain(part.touched_nodes()).collect()
     };
@@ -153,6 +143,38 @@ fn reduction(model: &mut Model, of: &Asked, acting: &BTreeSet<usize>, report: &m
         );
         return report.error_with(&asked.span, message, "leave `reduced` out");
     }
+    let damping = one_damping(model, of, (&parts, &inner), report)?;
+    let amplitudes = amplitudes(model, &of.name, interface[0], modes.min(most));
+    let place = [asked.span.start, asked.span.end];
+    let (name, title) = (of.name.clone(), title.clone());
+    Some(Reduction { name, title, parts, interface, inner, amplitudes, up_to, damping, place, made: None })
+}
+
+/// Refuses parts that no elements join: they have one frame.
+fn refuse_pieces(model: &Model, of: &Asked, parts: &[usize], report: &mut Report) -> Option<()> {
+    let (asked, title) = (of.extent, &of.title);
+    if let Some([a, b]) = pieces::apart(model, parts) {
+        let [a, b] = [a, b].map(|node| &model.nodes[node].label);
+        let message = format!(
+            "{title} is in several pieces: no element leads from `{a}` to `{b}`, and its shapes have one frame"
+        );
+        return report.error_with(
+            &asked.span,
+            message,
+            "reduce them one by one: give each piece a `reduced` of its own",
+        );
+    }
+    Some(())
+}
+
+/// The damping of the parts, which have one; a pressure that turns with them is refused.
+fn one_damping(
+    model: &Model,
+    of: &Asked,
+    (parts, inner): (&[usize], &[usize]),
+    report: &mut Report,
+) -> Option<OwnDamping> {
+    let (asked, title) = (of.extent, &of.title);
     if inner
         .iter()
         .any(|node| model.loading.pressures.iter().flat_map(|load| &load.faces).any(|face| face.nodes().contains(node)))
@@ -169,10 +191,7 @@ fn reduction(model: &mut Model, of: &Asked, acting: &BTreeSet<usize>, report: &m
         let message = format!("{title} have different `damping`, and their shapes have one");
         return report.error_with(&asked.span, message, "give them one `damping`, or reduce them one by one");
     }
-    let amplitudes = amplitudes(model, &of.name, interface[0], modes.min(most));
-    let place = [asked.span.start, asked.span.end];
-    let (name, title) = (of.name.clone(), title.clone());
-    Some(Reduction { name, title, parts, interface, inner, amplitudes, up_to, damping, place, made: None })
+    Some(damping)
 }
 
 /// The number of modes, and the highest frequency.

@@ -4,17 +4,17 @@ use super::source::{CRATES, lines_below};
 
 /// Lines of the sources below src by crate, `program` for what lies beside them.
 const BUDGET: [(&str, usize); 11] = [
-    ("base", 6960),
+    ("base", 6970),
     ("linear", 4250),
-    ("mechanics", 35_450),
-    ("deck", 5400),
-    ("import", 10_050),
-    ("model", 26_950),
-    ("solve", 34_850),
-    ("results", 11_400),
+    ("mechanics", 36_050),
+    ("deck", 5430),
+    ("import", 10_650),
+    ("model", 27_170),
+    ("solve", 35_050),
+    ("results", 11_550),
     ("study", 4280),
-    ("sweep", 1550),
-    ("program", 6350),
+    ("sweep", 1560),
+    ("program", 6550),
 ];
 
 #[test]

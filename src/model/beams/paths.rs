@@ -1,12 +1,10 @@
 //! Paths of beams and bars: successive points, and the division of each segment into elements.
 
 use crate::part_context::PartContext;
+use crate::parts::MOST_IN_SEGMENT;
 use crate::report::Owner;
 use base::diagnostic::At;
 use deck::words::{Maybe, OneOrMany};
-
-/// Largest number of elements in a segment; more are taken for a typing error, and would exhaust memory.
-pub const MOST_IN_SEGMENT: u64 = 1_000_000;
 
 /// Finds the nodes of a path of two or more points and connects them, for a beam with their `rotations`.
 pub fn path<'d>(

@@ -9,6 +9,7 @@ use crate::data::{MassKind, Part, PartIndex, PartKind, Shell, ShellElement};
 use crate::mesh;
 use crate::own_damping;
 use crate::part_context::PartContext;
+use crate::parts::MOST_IN_PATCH;
 use crate::places::nodes::Nodes;
 use crate::report::Owner;
 use crate::shells::patch::{Edges, Patch};
@@ -24,7 +25,6 @@ use std::collections::{HashMap, HashSet};
 
 /// Largest number of elements along an edge; more are taken for a typing error, and would exhaust memory.
 const MOST_ELEMENTS: u64 = 10_000;
-pub const MOST_IN_PATCH: usize = 1_000_000;
 const DEFAULT_LAYERS: usize = 8;
 
 /// Reads `[[shells]]`: divides each patch into elements, or uses those of a group of the mesh.

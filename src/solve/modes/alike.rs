@@ -1,7 +1,7 @@
 //! Reduced parts that are alike: the same elements on the same nodes at another place. Their matrices are made once.
 
 use super::linearized::Linearized;
-use super::reduction::{OwnNodes, each_element};
+use super::own_nodes::{OwnNodes, each_element};
 use crate::system::reduced;
 use crate::tolerances::reduction::ALIKE;
 use mechanics::elements::superelement::{ModalMass, SuperelementData};

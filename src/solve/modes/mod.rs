@@ -14,6 +14,7 @@ mod linearized;
 mod matrices;
 mod modal;
 mod mode;
+mod own_nodes;
 mod pencil;
 mod reduction;
 mod response;

@@ -8,15 +8,15 @@ use super::alike::{Known, Likeness, may_be_like_another};
 use super::fault::ModesFault;
 use super::linearized::Linearized;
 use super::modal::natural_pairs;
+use super::own_nodes::{OwnNodes, each_element};
 use super::pencil::Pencil;
 use crate::plan::Plan;
 use crate::system::{Loading, System, reduced};
 use crate::tolerances::reduction::{CARRIED, FEW, MOST};
 use base::diagnostic::Diagnostic;
 use base::math::{Vec3, Vec6};
-use mechanics::elements::Moduli;
 use mechanics::elements::superelement::{InertiaIntegrals, SuperelementData, dot, products};
-use mechanics::state::{Configuration, Node, State};
+use mechanics::state::{Node, State};
 use model::{
     AnalysisKind, Constraints, Damping, LoadCases, Loading as ModelLoading, ModeExtent, Model, ModesAsked, ReducedPart,
     Reduction, Restraint, StepLength, SuperelementMatrices, settle,
@@ -207,32 +207,6 @@ fn words(fault: &ModesFault) -> String {
     }
 }
 
-/// The nodes of a part: its interface, then those inside. Columns hold the motions of these alone.
-pub(super) struct OwnNodes {
-    nodes: Vec<usize>,
-    /// The place of each node of the scene among them; the number of nodes for others.
-    pub place: Vec<usize>,
-}
-
-impl OwnNodes {
-    fn new(of: &Reduction, scene: usize) -> OwnNodes {
-        let nodes: Vec<usize> = of.interface.iter().chain(&of.inner).copied().collect();
-        let mut place = vec![nodes.len(); scene];
-        nodes.iter().enumerate().for_each(|(k, &node)| place[node] = k);
-        OwnNodes { nodes, place }
-    }
-
-    /// The motions of these nodes out of those of the scene.
-    fn of(&self, scene: &[Vec6]) -> Vec<Vec6> {
-        self.nodes.iter().map(|&node| scene[node]).collect()
-    }
-
-    /// Motions of these nodes as columns.
-    fn matrix(&self, motions: &[Vec<Vec6>]) -> DMatrix<f64> {
-        DMatrix::from_fn(6 * self.nodes.len(), motions.len(), |row, column| motions[column][row / 6][row % 6])
-    }
-}
-
 /// The motions of the nodes of a part by a unit of each degree of freedom of the superelement: six rows for each node.
 fn columns(
     pencil: &mut Pencil,
@@ -287,22 +261,6 @@ fn forces(at: &Linearized, nodes: &[Node], own: &OwnNodes, columns: &DMatrix<f64
         }
     });
     forces
-}
-
-/// Calls `visit` with the nodes of each element, its degrees of freedom per node and its stiffness.
-pub(super) fn each_element(at: &Linearized, nodes: &[Node], mut visit: impl FnMut(&[usize], usize, &[f64])) {
-    let now = Configuration { nodes, history: &at.state.history, dt: 0.0, previous: None };
-    let mut K = Vec::new();
-    for group in &at.system.groups {
-        let (block, own) = (&group.block, &group.configuration(&now));
-        for e in 0..block.len() {
-            let of = block.nodes(e);
-            K.clear();
-            K.resize((block.dofs() * of.len()).pow(2), 0.0);
-            block.tangent(e, own, 0.0, Moduli::Elastic, &mut K);
-            visit(of, block.dofs(), &K);
-        }
-    }
 }
 
 /// The shapes of a part.

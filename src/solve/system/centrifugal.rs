@@ -3,8 +3,8 @@
 //! A mass m at the vector r from the axis feels m Ω² r, and a body with the inertia tensor J about its node the moment −Ω² n × J n. Both are the
 //! gradient of Ω² T, where T is the kinetic energy at the angular velocity 1, so that work and load stiffness follow from T.
 
-use super::build;
 use super::inertia::{ConsistentMass, Inertia};
+use super::mass_sources;
 use base::math::{Mat3, Mat6, Vec3, Vec6, angular, linear, skew};
 use mechanics::elements::{Force, subtract};
 use mechanics::state::Node;
@@ -23,7 +23,7 @@ impl CentrifugalLoad {
     /// The load with the masses of the model at its initial positions `x`.
     pub fn new(model: &Model, x: &[Vec3], load: &model::Centrifugal) -> CentrifugalLoad {
         let of = &load.of;
-        let (inertias, consistent) = build::masses_of(
+        let (inertias, consistent) = mass_sources::masses_of(
             model,
             x,
             of.bodies.iter().map(|&body| &model.bodies[body]),

@@ -17,7 +17,7 @@ use super::reduced::{FollowingNodes, resting_groups};
 use super::scale::Scale;
 use super::thread_partition::{GroupMemory, Partition};
 use super::turning_body::TurningBody;
-use super::{build, joint_tree, node_sums, plane_motion, thin_axes, thread_partition};
+use super::{build, joint_tree, mass_sources, node_sums, plane_motion, thin_axes, thread_partition};
 use crate::tolerances::multipliers::{REGULARIZATION, REGULARIZATION_OF_TREES};
 use base::math::{Vec3, Vec6, angular, linear, rotation};
 use base::snapshot::keep;
@@ -180,7 +180,7 @@ impl System {
         let following = model.reductions.iter().map(|of| FollowingNodes::new(of, &x)).collect::<Option<_>>();
         let following: Vec<FollowingNodes> =
             following.ok_or("the matrices of a reduced part have not been computed")?;
-        let (mut inertias, consistent) = build::masses(model, &x);
+        let (mut inertias, consistent) = mass_sources::masses(model, &x);
         let plane = normal(model, &inertias, &rigid_links);
         thin_axes::raise(model, (&mut inertias, &consistent), &rigid_links, plane);
         let groups = build::groups(model, &x, plane);

@@ -30,6 +30,7 @@ pub mod kinks;
 mod loads;
 pub mod mass_damping;
 mod mass_scaling;
+mod mass_sources;
 pub mod masses;
 pub mod modal_damping;
 mod multipliers;

@@ -1,7 +1,7 @@
 //! Reduced parts in the equation of motion: a superelement acts in place of the elements, whose nodes follow from it.
 
-use super::build;
 use super::group::{Group, GroupBlock};
+use super::mass_sources;
 use super::parts::{NumberedBlock, Setting, assembled};
 use base::math::{Vec3, Vec6};
 use mechanics::elements::Force;
@@ -63,7 +63,7 @@ pub fn element(model: &Model, of: &Reduction, x: &[Vec3], beta: f64) -> Option<F
 pub fn masses(model: &Model, of: &Reduction, place: &[usize]) -> ModalMass {
     let x: Vec<Vec3> = model.nodes.iter().map(|node| node.x).collect();
     let parts = of.parts.iter().map(|&part| &model.parts[part]);
-    let (lumped, consistent) = build::masses_of(model, &x, [].iter(), [].iter(), parts);
+    let (lumped, consistent) = mass_sources::masses_of(model, &x, [].iter(), [].iter(), parts);
     let mean = of.interface.iter().map(|&node| x[node]).sum::<Vec3>() / of.interface.len() as f64;
     let at_nodes = lumped.iter().map(|inertia| (place[inertia.node], place[inertia.node], inertia.mass));
     let pairs = consistent.iter().flat_map(|mass| mass.pairs().map(|(a, b, m)| (place[a], place[b], m)));
