@@ -39,7 +39,7 @@ pub use block_slot::BlockSlot;
 pub use cholesky::Cholesky;
 pub use elimination::operations;
 pub use factorization::Factorization;
-pub use memory::{TooLarge, available as available_memory};
+pub use memory::{TooLarge, available as available_memory, products as memory_of_products};
 pub use pivot::Singular;
 pub use solver::Solver;
 pub use sparse::Sparse;

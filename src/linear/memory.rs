@@ -4,6 +4,7 @@ use base::names::amount;
 use base::snapshot::{keep, keep_either};
 use std::fmt;
 use std::path::Path;
+use std::sync::OnceLock;
 
 /// Bytes for each unknown beside the numbers of a factorisation, at least: vectors of the solution, and lists of the structure. Whole runs of
 /// shells take about 1000 beside them, elements and what there is before the plan included.
@@ -57,11 +58,32 @@ impl fmt::Display for TooLarge {
 
 impl std::error::Error for TooLarge {}
 
-/// Bytes of buffers that products of large matrices take during a factorization; a limit of the process counts them.
-const PRODUCTS: usize = 96 << 20;
+/// Least bytes of the buffers of products.
+const LEAST_PRODUCTS: usize = 96 << 20;
 
 /// Needs below so many bytes are not compared with the free memory: the answer takes 0.1 ms, which is felt in sweeps of small cases.
 const SMALL: f64 = 1e7;
+
+/// Bytes of buffers that products of large matrices take during a factorization: twice the third level of cache of all processors. A limit of
+/// the process counts them, though most are never touched.
+pub fn products() -> usize {
+    static BYTES: OnceLock<usize> = OnceLock::new();
+    let third_level = || -> Option<usize> {
+        let read = |name: &str| std::fs::read_to_string(format!("/sys/devices/system/cpu/{name}")).ok();
+        let size = read("cpu0/cache/index3/size")?.trim().strip_suffix('K')?.parse::<usize>().ok()?;
+        let caches = listed(&read("online")?)?.div_ceil(listed(&read("cpu0/cache/index3/shared_cpu_list")?)?.max(1));
+        Some((size << 10).saturating_mul(caches))
+    };
+    *BYTES.get_or_init(|| LEAST_PRODUCTS.max(third_level().map_or(0, |bytes| bytes.saturating_mul(2))))
+}
+
+/// The number of processors in a list such as `0-3,8`.
+fn listed(list: &str) -> Option<usize> {
+    list.trim().split(',').try_fold(0, |count, range| {
+        let (first, last) = range.split_once('-').unwrap_or((range, range));
+        Some(count + last.parse::<usize>().ok()?.checked_sub(first.parse().ok()?)? + 1)
+    })
+}
 
 /// Makes sure that the memory holds so many `numbers` of a matrix, its factor and its update matrices.
 ///
@@ -71,7 +93,7 @@ pub(super) fn require(unknowns: usize, numbers: usize) -> Result<(), TooLarge> {
     let needed = size_of::<f64>() as f64 * numbers as f64 + BESIDE * unknowns as f64;
     let fits = needed < SMALL || available().is_none_or(|available| needed <= available);
     // The available memory of the system does not show a limit of this process. The memory is given back at once, untouched.
-    let granted = Vec::<u8>::new().try_reserve_exact((needed as usize).saturating_add(PRODUCTS)).is_ok();
+    let granted = Vec::<u8>::new().try_reserve_exact((needed as usize).saturating_add(products())).is_ok();
     if fits && granted { Ok(()) } else { Err(TooLarge { unknowns, needed, scratch: None }) }
 }
 

@@ -4,7 +4,7 @@ use super::failure::Failure;
 use crate::plan::Plan;
 use crate::system::System;
 use crate::system::energy::{Balance, Energy};
-use crate::tolerances::energy_growth::{FAR, SOUND};
+use crate::tolerances::energy_growth::{FAR, LOST, SOUND};
 use base::snapshot::keep;
 use mechanics::integrators::Stepping;
 use mechanics::state::State;
@@ -33,7 +33,7 @@ impl EnergyGrowth {
     /// Updates the balance; `energy` is the energy of the state, if known. Central differences have failed if they have generated more
     /// energy than was available, and much more as long as little is available. The verdict must not depend on output times: work is taken
     /// account of in every step, and energies are summed where links may release some. Other schemes have failed if the kinetic energy at the
-    /// end is twice what was available.
+    /// end is ten times what was available.
     pub fn check(
         &mut self,
         (model, plan, system): (&Model, &Plan, &System),
@@ -71,7 +71,7 @@ impl EnergyGrowth {
         // By implicit schemes stiff springs may hold the error of modes that no step resolves, while the motion is right, and sums of the work
         // of dampers and of yielding are too large: kinetic energy tells a motion that is lost.
         let gained = energy.kinetic - available;
-        (available > 0.0 && gained > available.max(rounding)).then(|| self.failure(gained / available, model))
+        (available > 0.0 && gained > LOST * available.max(rounding)).then(|| self.failure(gained / available, model))
     }
 
     fn failure(&self, ratio: f64, model: &Model) -> Failure {

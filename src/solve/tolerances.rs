@@ -304,6 +304,9 @@ pub mod drift {
 pub mod energy_growth {
     /// Generated energy, as a multiple of the available energy, above which a run is lost and ends.
     pub const FAR: f64 = 100.0;
+    /// The same for the kinetic energy at the end of a run by other schemes than central differences: a motion that begins at once leaves three times
+    /// the energy in modes that no step resolves, and it dies out.
+    pub const LOST: f64 = 10.0;
     /// Part of the available energy that steps may generate with sound results.
     pub const SOUND: f64 = 0.02;
 }

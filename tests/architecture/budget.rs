@@ -5,7 +5,7 @@ use super::source::{CRATES, lines_below};
 /// Lines of the sources below src by crate, `program` for what lies beside them.
 const BUDGET: [(&str, usize); 11] = [
     ("base", 6970),
-    ("linear", 4250),
+    ("linear", 4270),
     ("mechanics", 36_050),
     ("deck", 5430),
     ("import", 10_650),

@@ -1,6 +1,6 @@
 //! The stiffness of contacts that a deck leaves open: each scene runs, little is pressed in, energy is closed, and messages agree.
 
-use crate::support::{node, run_to_the_end, run_with_any_energy};
+use crate::support::{node, run_to_the_end};
 use rdsolve::diagnostic::Source;
 use rdsolve::model::{self, Contact, Model};
 
@@ -82,7 +82,7 @@ fn read(text: &str) -> (Model, Vec<String>) {
 /// The largest penetration over the size, the part of the largest energy that is made or lost, and all messages.
 fn run(text: &str, size: f64) -> (f64, f64, Vec<String>) {
     let (model, mut said) = read(text);
-    let done = run_with_any_energy(&model, &mut |frame| {
+    let done = run_to_the_end(&model, &mut |frame| {
         let energy = frame.derived.energy.expect("energies");
         let gap = frame.derived.contacts.iter().map(|contact| contact.gap).fold(f64::INFINITY, f64::min);
         vec![gap, energy.numerical, energy.mechanical]
