@@ -311,7 +311,8 @@ impl Sweep<'_> {
         let pending = of(|state| matches!(state, CaseState::Pending));
         let done = chosen.len() - failed - missed - pending;
         // An error of the deck is that of all its cases.
-        let (mut reasons, mut places): (Vec<(&str, Vec<usize>)>, HashMap<&str, usize>) = Default::default();
+        let mut reasons: Vec<(&str, Vec<usize>)> = Vec::new();
+        let mut places = HashMap::new();
         for &case in chosen.iter().filter(|&&case| matches!(states[case], CaseState::Failed(_))) {
             let reason = states[case].reason();
             let place = *places.entry(reason).or_insert(reasons.len());

@@ -83,10 +83,12 @@ fn sections_of_beams() {
     ];
     let area: f64 = walls.iter().map(|(a, b, ..)| a * b).sum();
     let [y, z] = [0, 1].map(|i| walls.iter().map(|(a, b, y, z)| a * b * [y, z][i]).sum::<f64>() / area);
-    let of = |f: &dyn Fn(&(f64, f64, f64, f64)) -> f64| walls.iter().map(|wall| f(wall)).sum::<f64>();
-    let about_y = of(&|(a, b, _, v)| a * b * b * b / 12.0 + a * b * (v - z) * (v - z));
-    let about_z = of(&|(a, b, u, _)| b * a * a * a / 12.0 + a * b * (u - y) * (u - y));
-    let product = of(&|(a, b, u, v)| a * b * (u - y) * (v - z));
+    let moments = walls.iter().map(|(a, b, u, v)| {
+        let (u, v) = (u - y, v - z);
+        [a * b * (b * b / 12.0 + v * v), a * b * (a * a / 12.0 + u * u), a * b * u * v]
+    });
+    let [about_y, about_z, product] =
+        moments.fold([0.0; 3], |sum, of_wall| std::array::from_fn(|i| sum[i] + of_wall[i]));
     for (key, wanted) in [("area", vec![area]), ("moments", vec![about_y, about_z]), ("product_moment", vec![product])]
     {
         for (found, wanted) in row_of(&made.deck, key).into_iter().zip(wanted) {
