@@ -253,8 +253,8 @@ fn write(build: &mut Build, group: Alike, targets: &[NamedTarget]) {
     }
 }
 
-/// Names for the nodes of a group. A body in contact whose rotations are held stands for its reference node: supports of bodies need no
-/// multipliers, beside which penalties of contact are not the only stiffness.
+/// Names for the nodes of a group. The body replaces its reference node where it is in contact and its rotations are held: supports of bodies
+/// need no multipliers, which converge badly beside penalties of contact.
 fn names(build: &mut Build, group: &Alike, targets: &[NamedTarget]) -> Vec<String> {
     let turns = (3..6).any(|dof| group.held[dof] != Some((HeldAs::Fixed, None)));
     let body = |node: &u64| build.touching.get(node).filter(|_| !turns).cloned();

@@ -6,7 +6,7 @@ use crate::keywords::KeywordRow;
 use crate::verdicts::KeywordVerdict;
 use base::text_file::cards::stands_for;
 
-/// A parameter that acts on the motion and that no reader asks for.
+/// A parameter that changes the motion and has no reader.
 struct UnreadParameter {
     /// The keywords that have it.
     keywords: &'static [&'static str],

@@ -67,7 +67,7 @@ pub struct Verdicts {
     judged: HashSet<Option<usize>>,
     /// Those that are refused.
     refused: HashSet<Option<usize>>,
-    /// Lines that are one load with an earlier line, and share what is said of it.
+    /// Lines that form one load with an earlier line, by the place of that line. They take its later verdicts.
     joined: HashMap<usize, Vec<usize>>,
 }
 

@@ -68,8 +68,7 @@ impl EnergyGrowth {
         if is_central || !last {
             return (grows && went_on).then(|| self.failure(generated / available, model));
         }
-        // By implicit schemes stiff springs may hold the error of modes that no step resolves, while the motion is right, and sums of the work
-        // of dampers and of yielding are too large: kinetic energy tells a motion that is lost.
+        // Strain energy of stiff springs and the work of dampers may be far too large while the motion is right, so kinetic energy decides.
         let gained = energy.kinetic - available;
         (available > 0.0 && gained > LOST * available.max(rounding)).then(|| self.failure(gained / available, model))
     }

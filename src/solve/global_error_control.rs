@@ -162,7 +162,7 @@ impl Run<'_> {
             control.under_way = UnderWay::Settled;
             return begun.err().map(|error| (Outcome::Io(error), None));
         }
-        // Steps by which the motion is lost tell nothing of a smaller tolerance.
+        // A smaller tolerance may keep the motion.
         let is_lost = matches!(&outcome, Outcome::Failed { failure: Failure::EnergyGrowth { .. }, .. });
         if is_lost && control.error.others - control.error.early < MOST_RUNS {
             let shorter = (control.error.without_comparison(), run.longest());

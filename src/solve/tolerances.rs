@@ -304,8 +304,8 @@ pub mod drift {
 pub mod energy_growth {
     /// Generated energy, as a multiple of the available energy, above which a run is lost and ends.
     pub const FAR: f64 = 100.0;
-    /// The same for the kinetic energy at the end of a run by other schemes than central differences: a motion that begins at once leaves three times
-    /// the energy in modes that no step resolves, and it dies out.
+    /// Kinetic energy at the end of a run by other schemes, beyond the available energy and as a multiple of it, above which the run fails. A
+    /// sudden start leaves a multiple of 3 in unresolved modes for some steps.
     pub const LOST: f64 = 10.0;
     /// Part of the available energy that steps may generate with sound results.
     pub const SOUND: f64 = 0.02;

@@ -105,7 +105,8 @@ impl Pilots<'_> {
         if difference.size.is_finite() { Ok(difference) } else { Err(format!("the {} is not finite", difference.of)) }
     }
 
-    /// The times of comparison. Those of a motion include the times at which the run is compared with the pilot run. Load steps end at them, and so do steps of twice the length.
+    /// The times of comparison. Motions have the times of global error control and of `[[expect]]`. Load steps end at these times, and so do
+    /// steps of twice the length.
     fn times(&self) -> Vec<f64> {
         let analysis = &self.model.analysis;
         let end = analysis.end_time;

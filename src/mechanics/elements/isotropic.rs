@@ -1,6 +1,6 @@
-//! Effort over a coordinate with a backbone of straight lines and isotropic hardening: the yield force grows with the plastic path in both
-//! senses, F_y(a) with ȧ = |q̇_p|. Within a step the plastic path is found exactly, line by line (J. C. Simo, T. J. R. Hughes, Computational
-//! Inelasticity, 1998, section 1.4).
+//! Effort over a coordinate with a backbone of straight lines and isotropic hardening. The yield force F_y(a) grows with the plastic path a in
+//! both senses, where ȧ = |q̇_p|. The plastic path of a step is exact, line by line (J. C. Simo, T. J. R. Hughes, Computational Inelasticity,
+//! 1998, section 1.4).
 
 use super::hysteresis::{Hysteresis, MOST_POINTS};
 use super::slider::CoordinateState;

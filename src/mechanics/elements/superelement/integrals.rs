@@ -1,11 +1,11 @@
 //! The inertia of a reduced part by integrals over its mass, which are computed once.
 //!
-//! A node of the part lies at z = Y + u in the frame and has the rotation ψ there, with (u, ψ) = Φ q. With the velocity V of the mean of the
-//! interface and the angular velocity Ω of the frame, along its axes, the kinetic energy is
-//!   T = ½ m V² + V·(Ω × s + S q̇) + ½ Ω·J Ω + Ω·(N q̇ + Σ q_k B_kl q̇_l) + ½ q̇ᵀ M q̇,
-//! where s = s₀ + S q and J = J₀ + Σ J_k q_k + Σ J_kl q_k q_l (A. A. Shabana, Dynamics of Multibody Systems, 2013, chapter 5). The masses of
-//! translations enter exactly, and rotary inertia by the terms of second order in ψ but one: ½ Ω·(ψ × Jψ̇ + ψ̇ × Jψ), which vanishes where the
-//! inertia is the same about all axes. Forces follow from Lagrange's equations, so momenta and energy are those of T:
+//! A node of the part lies at z = Y + u in the frame and has the rotation ψ there, with (u, ψ) = Φ q. V is the velocity of the mean of the
+//! interface, and Ω the angular velocity of the frame, both along its axes. The kinetic energy is
+//!   T = ½ m V² + V·(Ω × s + S q̇) + ½ Ω·J Ω + Ω·(N q̇ + Σ q_k B_kl q̇_l) + ½ q̇ᵀ M q̇.
+//! Here s = s₀ + S q and J = J₀ + Σ J_k q_k + Σ J_kl q_k q_l (A. A. Shabana, Dynamics of Multibody Systems, 2013, chapter 5). The masses of
+//! translations enter exactly. Rotary inertia has the terms of second order in ψ but ½ Ω·(ψ × Jψ̇ + ψ̇ × Jψ). This term is zero where the inertia
+//! is the same about all axes. Forces follow from Lagrange's equations:
 //!   F = ṗ + Ω × p,  h = L̇ + Ω × L + V × p,  g = d/dt ∂T/∂q̇ − ∂T/∂q.
 
 use super::recovery::FrameMotion;
