@@ -3,7 +3,7 @@
 //! Points of the deck belong to the interface. So do nodes of other parts, bodies, joints, supports, point loads, dampers and stops. Spread loads
 //! and weight act on inner nodes by the shapes. Outputs and expected values follow from these as well.
 
-mod pieces;
+mod connected;
 
 use super::data::{Beam, LoadOrigin, Model, Node, OwnDamping, Part, PartType, Reduction};
 use super::plausibility::unused::visit_actors;
@@ -12,9 +12,10 @@ use base::diagnostic::{At, Span};
 use base::math::Vec3;
 use deck::Deck;
 use deck::part_table::{MassKind, ReducedTable};
-use deck::parts::DeckPart;
+use deck::parts::{DeckPart, PartKind};
 use deck::words::{NumberOrTable, Table};
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// Modes where the deck gives a frequency alone.
 const MODES: usize = 20;
@@ -48,9 +49,8 @@ pub(super) fn reductions<'d>(model: &mut Model, deck: &'d Deck, report: &mut Rep
     }
     let acting = acting_nodes(model);
     for asked in asked {
-        if let Some(made) = reduction(model, &asked, &acting, report) {
-            model.reductions.push(made);
-        }
+        let made = reductions_of(model, &asked, &acting, report);
+        model.reductions.extend(made.into_iter().flatten());
     }
 }
 
@@ -107,24 +107,93 @@ fn acting_nodes(model: &mut Model) -> BTreeSet<usize> {
     nodes
 }
 
-fn reduction(model: &mut Model, of: &Asked, acting: &BTreeSet<usize>, report: &mut Report) -> Option<Reduction> {
-    let (asked, title) = (of.extent, &of.title);
-    let (modes, up_to) = extent(asked, report)?;
+/// The reductions of parts of the deck: one, or one for each piece of a beam.
+fn reductions_of(
+    model: &mut Model,
+    of: &Asked,
+    acting: &BTreeSet<usize>,
+    report: &mut Report,
+) -> Option<Vec<Reduction>> {
+    let extent = Extent::new(of.extent, report)?;
     let mut parts: Vec<usize> = Vec::new();
     for part in &of.parts {
         let is_own = |other: &Part| other.kind() == part.at.kind && other.name() == part.label();
         let own: Vec<usize> = (0..model.parts.len()).filter(|&index| is_own(&model.parts[index])).collect();
-        refuse(model, part, &own, &asked.span, report)?;
+        refuse(model, part, &own, &of.extent.span, report)?;
         parts.extend(own);
     }
     parts.sort_unstable();
-    refuse_pieces(model, of, &parts, report)?;
+    refuse_apart(model, of, &parts, report)?;
+    let pieces = pieces(model, of, (&parts, extent.pieces), report)?;
+    pieces.into_iter().map(|piece| reduction(model, of, (&extent, piece), acting, report)).collect()
+}
+
+/// The parts as they are, or pieces of a beam.
+fn pieces(
+    model: &Model,
+    of: &Asked,
+    (parts, count): (&[usize], usize),
+    report: &mut Report,
+) -> Option<Vec<Reduction>> {
+    let piece = |title: String, elements: Option<Range<usize>>| Reduction {
+        name: of.name.clone(),
+        title,
+        parts: parts.to_vec(),
+        elements,
+        interface: Vec::new(),
+        inner: Vec::new(),
+        amplitudes: Vec::new(),
+        up_to: None,
+        geometric: true,
+        damping: OwnDamping::default(),
+        place: [of.extent.span.start, of.extent.span.end],
+        made: None,
+    };
+    if count == 1 {
+        return Some(vec![piece(of.title.clone(), None)]);
+    }
+    let is_path = matches!(&of.parts[..], [part] if part.at.kind == PartKind::Beam && part.table.group().is_none());
+    let all = parts.iter().map(|&part| model.parts[part].elements()).sum::<usize>();
+    let (message, hint) = match is_path {
+        false => (
+            format!("{} cannot be cut into `pieces`", of.title),
+            "only a beam along a `path` can: leave `pieces` out, or give each part a `reduced` of its own",
+        ),
+        true if count > all => (
+            format!("{} has {all} elements, and {count} pieces need one each at least", of.title),
+            "give it more `elements`, or fewer `pieces`",
+        ),
+        true => {
+            let of_piece = |k: usize| {
+                piece(format!("piece {} of {}", k + 1, of.title), Some(k * all / count..(k + 1) * all / count))
+            };
+            return Some((0..count).map(of_piece).collect());
+        }
+    };
+    report.error_with(&of.extent.span, message, hint)
+}
+
+/// Completes a reduction by its nodes.
+fn reduction(
+    model: &mut Model,
+    of: &Asked,
+    (extent, piece): (&Extent, Reduction),
+    acting: &BTreeSet<usize>,
+    report: &mut Report,
+) -> Option<Reduction> {
+    let asked = of.extent;
     let nodes_of = |part: &Part| -> Vec<usize> {
         (0..part.elements()).flat_map(|element| part.nodes(element).to_vec()).chain(part.touched_nodes()).collect()
     };
-    let nodes: BTreeSet<usize> = parts.iter().flat_map(|&index| nodes_of(&model.parts[index])).collect();
-    let others = (0..model.parts.len()).filter(|index| !parts.contains(index));
-    let shared: BTreeSet<usize> = others.flat_map(|index| nodes_of(&model.parts[index])).collect();
+    let own = piece.own_parts(&model.parts);
+    let nodes: BTreeSet<usize> = own.iter().flat_map(nodes_of).collect();
+    let others = (0..model.parts.len()).filter(|index| !piece.parts.contains(index));
+    let mut shared: BTreeSet<usize> = others.flat_map(|index| nodes_of(&model.parts[index])).collect();
+    if let Some(elements) = &piece.elements {
+        let beam = &model.parts[piece.parts[0]];
+        let other = (0..beam.elements()).filter(|element| !elements.contains(element));
+        shared.extend(other.flat_map(|element| beam.nodes(element).to_vec()));
+    }
     let is_interface = |node: &&usize| acting.contains(node) || shared.contains(node);
     let mut interface: Vec<usize> = nodes.iter().filter(is_interface).copied().collect();
     // The frame of a free part moves with the node nearest to its middle.
@@ -138,22 +207,22 @@ fn reduction(model: &mut Model, of: &Asked, acting: &BTreeSet<usize>, report: &m
     let most = 6 * nodes.len();
     let inner: Vec<usize> = nodes.into_iter().filter(|node| interface.binary_search(node).is_err()).collect();
     if inner.is_empty() {
+        let title = &piece.title;
         let message = format!(
             "`reduced` leaves nothing out of {title}: supports, links, loads or other parts act on each of its nodes"
         );
-        return report.error_with(&asked.span, message, "leave `reduced` out");
+        return report.error_with(&asked.span, message, "give it more `elements`, or leave `reduced` out");
     }
-    let damping = one_damping(model, of, (&parts, &inner), report)?;
-    let amplitudes = amplitudes(model, &of.name, interface[0], modes.min(most));
-    let place = [asked.span.start, asked.span.end];
-    let (name, title) = (of.name.clone(), title.clone());
-    Some(Reduction { name, title, parts, interface, inner, amplitudes, up_to, damping, place, made: None })
+    let damping = one_damping(model, of, (&piece.parts, &inner), report)?;
+    let amplitudes = amplitudes(model, &piece.title, interface[0], extent.modes.min(most));
+    let (up_to, geometric) = (extent.up_to, extent.geometric);
+    Some(Reduction { interface, inner, amplitudes, up_to, geometric, damping, ..piece })
 }
 
 /// Refuses parts that no elements join: they have one frame.
-fn refuse_pieces(model: &Model, of: &Asked, parts: &[usize], report: &mut Report) -> Option<()> {
+fn refuse_apart(model: &Model, of: &Asked, parts: &[usize], report: &mut Report) -> Option<()> {
     let (asked, title) = (of.extent, &of.title);
-    if let Some([a, b]) = pieces::apart(model, parts) {
+    if let Some([a, b]) = connected::apart(model, parts) {
         let [a, b] = [a, b].map(|node| &model.nodes[node].label);
         let message = format!(
             "{title} is in several pieces: no element leads from `{a}` to `{b}`, and its shapes have one frame"
@@ -194,25 +263,47 @@ fn one_damping(
     Some(damping)
 }
 
-/// The number of modes, and the highest frequency.
-fn extent(asked: &At<NumberOrTable<Table<ReducedTable>>>, report: &mut Report) -> Option<(usize, Option<f64>)> {
-    let (modes, up_to) = match &asked.value {
-        NumberOrTable::Number(modes) => (*modes, None),
-        NumberOrTable::Table(table) => {
-            let up_to = report.positive("up_to", &table.up_to);
-            let modes = table.modes.as_ref().map(|modes| modes.value as f64);
-            if modes.is_none() && table.up_to.is_none() && !report.is_any_spoiled(&asked.span) {
-                let hint = "give it `modes`, such as { modes = 20 }, `up_to`, or both";
-                return report.error_with(&asked.span, "`reduced` is empty", hint);
+/// What the deck asks of a reduced part.
+struct Extent {
+    modes: usize,
+    /// The highest frequency.
+    up_to: Option<f64>,
+    /// Pieces of a beam.
+    pieces: usize,
+    /// True with terms of second order.
+    geometric: bool,
+}
+
+impl Extent {
+    fn new(asked: &At<NumberOrTable<Table<ReducedTable>>>, report: &mut Report) -> Option<Extent> {
+        let mut of = Extent { modes: MODES, up_to: None, pieces: 1, geometric: true };
+        let mut modes = MODES as f64;
+        match &asked.value {
+            NumberOrTable::Number(number) => modes = *number,
+            NumberOrTable::Table(table) => {
+                of.up_to = report.positive("up_to", &table.up_to);
+                let is_empty = table.modes.is_none() && table.up_to.is_none() && table.pieces.is_none();
+                if is_empty && !report.is_any_spoiled(&asked.span) {
+                    let hint = "give it `modes`, such as { modes = 20 }, `up_to`, or both";
+                    return report.error_with(&asked.span, "`reduced` asks for nothing", hint);
+                }
+                modes = table.modes.as_ref().map_or(modes, |modes| modes.value as f64);
+                of.geometric = table.geometric_stiffness.as_ref().is_none_or(|asked| asked.value);
+                if let Some(pieces) = &table.pieces {
+                    of.pieces = pieces.value as usize;
+                    if of.pieces == 0 {
+                        return report.error_with(&pieces.span, "`pieces` is 0", "give 1 or more");
+                    }
+                }
             }
-            (modes.unwrap_or(MODES as f64), up_to)
         }
-    };
-    if modes < 0.0 || modes.fract() != 0.0 || modes > MOST as f64 {
-        let message = format!("`reduced` needs a whole number of modes from 0 to {MOST}");
-        return report.error_with(&asked.span, message, "20 suffice for most parts; 0 keeps the static shapes alone");
+        if modes < 0.0 || modes.fract() != 0.0 || modes > MOST as f64 {
+            let message = format!("`reduced` needs a whole number of modes from 0 to {MOST}");
+            let hint = "20 suffice for most parts; 0 keeps the static shapes alone";
+            return report.error_with(&asked.span, message, hint);
+        }
+        Some(Extent { modes: modes as usize, ..of })
     }
-    Some((modes as usize, up_to))
 }
 
 /// Refuses what shapes of small displacements do not have.
@@ -270,11 +361,11 @@ fn has_mass_beside_the_axis(model: &Model, beam: &Beam) -> bool {
 }
 
 /// A node for each amplitude.
-fn amplitudes(model: &mut Model, name: &str, near: usize, modes: usize) -> Vec<usize> {
+fn amplitudes(model: &mut Model, of: &str, near: usize, modes: usize) -> Vec<usize> {
     let x = model.nodes[near].x;
     let first = model.nodes.len();
     model.nodes.extend((1..=modes).map(|mode| {
-        let label = format!("{name}, mode {mode}");
+        let label = format!("{of}, mode {mode}");
         let (v, omega) = Default::default();
         Node { label, named: false, is_number: true, x, v, omega, given: [None, None], place: None }
     }));

@@ -941,6 +941,20 @@ pub mod throws {
     pub const STEPS: f64 = 10.0;
 }
 
+pub mod second_order {
+    /// Most unknowns of a reduced part with terms of second order: a step takes their number squared for each coordinate.
+    pub const LARGEST: usize = 100;
+    /// The softest coordinates, whose products count. Stiffer ones stay small.
+    pub const SOFT: usize = 20;
+    /// Weight of a rotation beside a displacement, as a part of the extent: about the radius of a section. So torsion counts as stiff beside bending,
+    /// and follows it.
+    pub const TURN: f64 = 0.01;
+    /// Displacements that deform the part, as a part of its extent. The next terms are smaller by the square of this, and rounding by 1e-8.
+    pub const SIZE: f64 = 1e-4;
+    /// Terms of less weight at equal energies, as a part of the largest: rounding, and what nobody sees.
+    pub const LEAST: f64 = 1e-6;
+}
+
 pub mod reduction {
     /// Difference between the initial velocity of an inner node and that of the static shapes, as a part of the largest. Shapes of
     /// ill-conditioned parts have 1e-8.

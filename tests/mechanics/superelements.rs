@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::superelement::{
-    FloatingElement, FloatingWeights, InnerNodes, SuperelementBlock, SuperelementData,
+    FloatingElement, FloatingWeights, InnerNodes, Product, SecondOrder, SuperelementBlock, SuperelementData,
 };
 use rdsolve::elements::{Force, Mechanics, Moduli, Results};
 use rdsolve::math::rotation::{exp, rates};
@@ -22,6 +22,9 @@ struct Random {
 
 /// The points of the body, more than its degrees of freedom, so that no motion is without mass.
 const POINTS: usize = 24;
+
+/// Coordinates with terms of second order.
+const COORDINATES: usize = 3;
 
 impl Random {
     fn new(seed: u64, interface: usize, modes: usize, turns: bool) -> Random {
@@ -56,7 +59,14 @@ impl Random {
             let of_point = field * &rigid + 0.2 * shape;
             mass += of_point.tr_mul(&of_point);
         }
+        let coordinates = random(COORDINATES) * &rest;
         let entries = |matrix: DMatrix<f64>| Arc::from(matrix.as_slice());
+        let products = (0..COORDINATES).flat_map(|sum| (0..=sum).flat_map(move |k| (0..=k).map(move |j| (sum, [j, k]))));
+        let second_order = SecondOrder {
+            coordinates: coordinates.transpose().as_slice().to_vec(),
+            stiffness: (1..=COORDINATES).map(|k| k as f64).collect(),
+            terms: products.map(|(sum, of)| Product { sum, of, factor: rng.random_range(-1.0..1.0) }).collect(),
+        };
         let data = SuperelementData {
             nodes: (0..interface + modes).collect(),
             interface,
@@ -64,6 +74,7 @@ impl Random {
             stiffness: entries(springs.tr_mul(&springs)),
             mass: entries(mass),
             damping: entries(0.1 * dampers.tr_mul(&dampers)),
+            second_order: turns.then(|| Arc::new(second_order)),
         };
         x.resize(interface + modes, x[0]);
         Random { data, x, rng }

@@ -39,6 +39,7 @@ mod plan;
 mod plasticity;
 mod pretension;
 mod reduced;
+mod reduced_geometry;
 mod reduced_mechanisms;
 mod reruns;
 mod rotated_matrix;

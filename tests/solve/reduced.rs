@@ -298,7 +298,13 @@ fn what_shapes_do_not_have_is_refused() {
     let cases = [
         (format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = 5\nrigid = true")), "`rigid` and `reduced`"),
         (format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = 2.5")), "a whole number of modes"),
-        (format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = {}")), "`reduced` is empty"),
+        (format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = {}")), "`reduced` asks for nothing"),
+        (format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = { pieces = 0 }")), "`pieces` is 0"),
+        (format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = { modes = 2, pieces = 11 }")), "has 10 elements, and 11 pieces"),
+        (
+            format!("{dynamic}{}", reduced(PLATE, 5).replace("reduced = 5", "reduced = { modes = 5, pieces = 2 }")),
+            "shell `plate` cannot be cut",
+        ),
         (format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = { up_to = -1.0 }")), "must be above zero"),
         (format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = 5\nmass = \"free-nodes\"")), "free-nodes"),
         (

@@ -1,7 +1,10 @@
 //! Parts that deform by a few shapes.
 
+use super::beam::Beam;
 use super::loading::OwnDamping;
+use super::part::{Part, PartType};
 use mechanics::elements::superelement::{InertiaIntegrals, SuperelementData};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Parts with a common superelement, which acts on the interface in place of their elements.
@@ -13,6 +16,8 @@ pub struct Reduction {
     pub title: String,
     /// Indices into [`super::Model::parts`], ascending.
     pub parts: Vec<usize>,
+    /// The elements of a beam that is cut into pieces; `None` for all elements of the parts.
+    pub elements: Option<Range<usize>>,
     /// The nodes by which the rest of the scene acts on the parts, ascending.
     pub interface: Vec<usize>,
     /// The other nodes of the parts, ascending.
@@ -21,12 +26,27 @@ pub struct Reduction {
     pub amplitudes: Vec<usize>,
     /// The highest frequency that is kept; `None` without a bound.
     pub up_to: Option<f64>,
+    /// True with terms of second order.
+    pub geometric: bool,
     /// Rayleigh factors of the parts.
     pub damping: OwnDamping,
     /// Where the deck asks for it: first byte, and the one after the last.
     pub place: [usize; 2],
     /// The matrices; `None` until they have been computed.
     pub made: Option<Arc<ReducedPart>>,
+}
+
+impl Reduction {
+    /// The parts; of a beam that is cut into pieces, a beam of this piece.
+    pub fn own_parts(&self, all: &[Part]) -> Vec<Part> {
+        let mut own: Vec<Part> = self.parts.iter().map(|&part| all[part].clone()).collect();
+        if let Some(elements) = &self.elements {
+            for beam in own.iter_mut().filter_map(Beam::of_mut) {
+                beam.elements = beam.elements[elements.clone()].to_vec();
+            }
+        }
+        own
+    }
 }
 
 /// A reduced part by its matrices and shapes.

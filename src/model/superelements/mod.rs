@@ -83,6 +83,7 @@ fn read<'d>(
         stiffness: entries(&made.stiffness),
         mass: made.mass.as_ref().map_or_else(|| Arc::from([]), entries),
         damping: made.damping.as_ref().map_or_else(|| Arc::from([]), entries),
+        second_order: None,
     };
     Some(Superelement { name, matrices, mass, damping })
 }

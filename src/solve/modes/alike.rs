@@ -6,12 +6,13 @@ use crate::system::reduced;
 use crate::tolerances::reduction::ALIKE;
 use mechanics::elements::superelement::{ModalMass, SuperelementData};
 use model::{Model, ReducedPart, Reduction};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// What the matrices of a reduced part follow from.
 pub struct Likeness {
-    /// Nodes of the interface, modes asked for, and the highest frequency.
-    asked: (usize, usize, Option<f64>),
+    /// Nodes of the interface, modes asked for, the highest frequency, and whether there are terms of second order.
+    asked: (usize, usize, Option<f64>, bool),
     masses: ModalMass,
     /// The nodes of each element, by their place in the part, and its stiffness.
     elements: Vec<(Vec<usize>, Vec<f64>)>,
@@ -27,7 +28,7 @@ impl Likeness {
         each_element(at, &at.nodes_at_rest(), |of_element, _, K| {
             elements.push((of_element.iter().map(|&node| own.place[node]).collect(), K.to_vec()));
         });
-        let asked = (of.interface.len(), of.amplitudes.len(), of.up_to);
+        let asked = (of.interface.len(), of.amplitudes.len(), of.up_to, of.geometric);
         Likeness { asked, masses: reduced::masses(model, of, &own.place), elements }
     }
 
@@ -61,7 +62,7 @@ impl Likeness {
 pub fn may_be_like_another(model: &Model, of: &Reduction) -> bool {
     let size = |of: &Reduction| {
         let elements = of.parts.iter().map(|&part| model.parts[part].elements());
-        (of.interface.len(), of.inner.len(), elements.sum::<usize>())
+        (of.interface.len(), of.inner.len(), of.elements.as_ref().map_or(elements.sum::<usize>(), Range::len))
     };
     model.reductions.iter().filter(|other| size(other) == size(of)).count() > 1
 }

@@ -19,6 +19,7 @@ mod pencil;
 mod reduction;
 mod response;
 mod rest;
+mod second_order;
 mod shape;
 mod shares;
 mod speed_modes;

@@ -23,6 +23,11 @@ impl OwnNodes {
         OwnNodes { nodes, place }
     }
 
+    /// The nodes.
+    pub fn nodes(&self) -> &[usize] {
+        &self.nodes
+    }
+
     /// The motions of these nodes out of those of the scene.
     pub fn of(&self, scene: &[Vec6]) -> Vec<Vec6> {
         self.nodes.iter().map(|&node| scene[node]).collect()

@@ -10,12 +10,13 @@ use super::linearized::Linearized;
 use super::modal::natural_pairs;
 use super::own_nodes::{OwnNodes, each_element};
 use super::pencil::Pencil;
+use super::second_order::second_order;
 use crate::plan::Plan;
 use crate::system::{Loading, System, reduced};
 use crate::tolerances::reduction::{CARRIED, FEW, MOST};
 use base::diagnostic::Diagnostic;
 use base::math::{Vec3, Vec6};
-use mechanics::elements::superelement::{InertiaIntegrals, SuperelementData, dot, products};
+use mechanics::elements::superelement::{InertiaIntegrals, SecondOrder, SuperelementData, dot, products};
 use mechanics::state::{Node, State};
 use model::{
     AnalysisKind, Constraints, Damping, LoadCases, Loading as ModelLoading, ModeExtent, Model, ModesAsked, ReducedPart,
@@ -89,7 +90,7 @@ fn other_velocities(model: &Model, index: usize, made: &ReducedPart) -> Option<D
 /// The part alone, with its interface held.
 fn alone(model: &Model, of: &Reduction) -> Model {
     let mut own = Model {
-        parts: of.parts.iter().map(|&part| model.parts[part].clone()).collect(),
+        parts: of.own_parts(&model.parts),
         nodes: model.nodes.clone(),
         stiffnesses: model.stiffnesses.clone(),
         title: String::new(),
@@ -311,6 +312,7 @@ impl Shapes<'_> {
             stiffness: entries(&made.stiffness),
             mass: made.mass.as_ref().map_or_else(|| Arc::from([]), entries),
             damping: Arc::from([]),
+            second_order: self.second_order(&made.stiffness).map(Arc::new),
         };
         let shapes = self.columns.column_iter().flat_map(|column| column.into_owned().as_slice()[placed..].to_vec());
         let shapes = shapes.collect();
@@ -324,6 +326,12 @@ impl Shapes<'_> {
     fn total(&self, mass: &DMatrix<f64>, axis: usize) -> f64 {
         let along = || (0..self.of.interface.len()).map(|i| 6 * i + axis);
         along().flat_map(|row| along().map(move |column| (row, column))).map(|at| mass[at]).sum()
+    }
+
+    /// The terms of second order, if the deck does not leave them out.
+    fn second_order(&self, stiffness: &DMatrix<f64>) -> Option<SecondOrder> {
+        let nodes = (&self.own, &self.columns);
+        if self.of.geometric { second_order(&self.at, nodes, stiffness) } else { None }
     }
 
     /// Φᵀ K Φ.

@@ -14,8 +14,9 @@ pub fn groups(model: &Model, x: &[Vec3], plane: Option<usize>) -> Vec<Group> {
     let mut groups = Vec::new();
     let mut end = 0;
     for (place, part) in model.parts.iter().enumerate() {
-        if let Some(of) = model.reduction(place) {
-            let made = reduced::element(model, of, x, model.damping.beta(&of.damping)).filter(|_| of.parts[0] == place);
+        if model.reduction(place).is_some() {
+            let first_here = model.reductions.iter().filter(|of| of.parts[0] == place);
+            let made = first_here.filter_map(|of| reduced::element(model, of, x, model.damping.beta(&of.damping)));
             groups.extend(made.map(|element| Group {
                 block: GroupBlock::Elements(Box::new(SuperelementBlock(element))),
                 kind: PartKind::Superelement,

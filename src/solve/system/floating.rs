@@ -45,9 +45,9 @@ impl FloatingMass {
     /// Writes the derivative of these forces, with the sign of a stiffness.
     pub fn tangent(&self, (nodes, field): (&[Node], &Vec3), weights: &TangentWeights, gyroscopic: bool, K: &mut [f64]) {
         let TangentWeights { rate, acceleration, stiffness, .. } = *weights;
-        if self.integrals.is_some() {
+        if let Some(own) = &self.integrals {
             // Gyroscopic terms are small in a step.
-            return self.element.mass_tangent(nodes, acceleration + self.alpha * rate, K);
+            return own.mass_tangent(&self.element, nodes, acceleration + self.alpha * rate, K);
         }
         let field = if stiffness { *field } else { Vec3::zeros() };
         let weights = FloatingWeights { rate, acceleration, alpha: self.alpha, gyroscopic };

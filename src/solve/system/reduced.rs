@@ -62,8 +62,8 @@ pub fn element(model: &Model, of: &Reduction, x: &[Vec3], beta: f64) -> Option<F
 /// The masses of a reduced part, whose nodes have these places among those of its shapes.
 pub fn masses(model: &Model, of: &Reduction, place: &[usize]) -> ModalMass {
     let x: Vec<Vec3> = model.nodes.iter().map(|node| node.x).collect();
-    let parts = of.parts.iter().map(|&part| &model.parts[part]);
-    let (lumped, consistent) = mass_sources::masses_of(model, &x, [].iter(), [].iter(), parts);
+    let parts = of.own_parts(&model.parts);
+    let (lumped, consistent) = mass_sources::masses_of(model, &x, [].iter(), [].iter(), parts.iter());
     let mean = of.interface.iter().map(|&node| x[node]).sum::<Vec3>() / of.interface.len() as f64;
     let at_nodes = lumped.iter().map(|inertia| (place[inertia.node], place[inertia.node], inertia.mass));
     let pairs = consistent.iter().flat_map(|mass| mass.pairs().map(|(a, b, m)| (place[a], place[b], m)));
@@ -83,6 +83,7 @@ pub fn resting_groups(model: &Model, x: &[Vec3]) -> Vec<Group> {
     let setting = Setting { model, x, plane: None };
     let mut parts: Vec<usize> = model.reductions.iter().flat_map(|of| &of.parts).copied().collect();
     parts.sort_unstable();
+    parts.dedup();
     let blocks = parts.into_iter().flat_map(|part| {
         let made = assembled(&model.parts[part]).blocks(&setting);
         made.into_iter().filter(|(block, _)| !block.is_empty()).map(move |made| (part, made))

@@ -81,12 +81,15 @@ impl FloatingElement {
         if let Some(before) = before {
             self.extrapolate(before, scratch);
         }
-        let Scratch { frame, q, vectors: [g, f, rates, product, ..], .. } = scratch;
+        let Scratch { frame, q, vectors: [g, f, rates, product, ..], second_order, .. } = scratch;
         self.place(nodes, frame);
         if before.is_none() {
             self.displacements(nodes, frame, q);
         }
         multiply(&self.data.stiffness, q, g);
+        if let Some(terms) = &self.data.second_order {
+            terms.add_forces(q, second_order, g);
+        }
         if self.is_viscous() {
             self.rates(nodes, frame, rates);
             self.add_viscous(rates, product, g);
@@ -128,11 +131,14 @@ impl FloatingElement {
 
     /// Writes the transpose of (K + rate (C + β K)) diag(1, T⁻¹(ψ)): a row for each motion of the nodes in a frame that stays, with the
     /// derivatives of g. K and C are symmetric.
-    fn local_stiffness(&self, inverses: &[Mat3], rate: f64, A: &mut [f64]) {
+    fn local_stiffness(&self, rate: f64, Scratch { q, matrix: A, inverses, second_order, .. }: &mut Scratch) {
         let (size, factor) = (self.size(), 1.0 + rate * self.beta);
         A.iter_mut().zip(&*self.data.stiffness).for_each(|(a, k)| *a = factor * k);
         A.iter_mut().zip(&*self.data.damping).for_each(|(a, c)| *a += rate * c);
-        for (rows, inverse) in A.chunks_mut(6 * size).zip(inverses) {
+        if let Some(terms) = &self.data.second_order {
+            terms.add_stiffness(q, second_order, A);
+        }
+        for (rows, inverse) in A.chunks_mut(6 * size).zip(&*inverses) {
             let [x, y, z] = three_rows(&mut rows[3 * size..], size);
             for ((x, y), z) in x.iter_mut().zip(y).zip(z) {
                 let turned = inverse.tr_mul(&Vec3::new(*x, *y, *z));
@@ -305,9 +311,10 @@ impl Mechanics for SuperelementBlock {
         let of = &self.0;
         let scratch = &mut *of.scratch();
         let b = of.local_forces(now.nodes, now.previous, scratch);
+        let of_nodes = scratch.inverses.iter_mut().zip(&scratch.frame.psi);
+        of_nodes.for_each(|(inverse, psi)| *inverse = inverse_tangent_matrix(psi));
+        of.local_stiffness(rate_weight, scratch);
         let Scratch { frame, vectors: [g, f, turns @ .., _, _, _], matrix, inverses, .. } = scratch;
-        inverses.iter_mut().zip(&frame.psi).for_each(|(inverse, psi)| *inverse = inverse_tangent_matrix(psi));
-        of.local_stiffness(inverses, rate_weight, matrix);
         let (size, at) = (of.size(), (&*frame, &inverses[..]));
         for (axis, df) in turns.iter_mut().enumerate() {
             let phi = Vec3::ith(axis, 1.0);
@@ -330,11 +337,12 @@ impl Mechanics for SuperelementBlock {
 impl Results for SuperelementBlock {
     fn energy(&self, now: &Configuration) -> f64 {
         let of = &self.0;
-        let Scratch { frame, q, vectors: [g, ..], .. } = &mut *of.scratch();
+        let Scratch { frame, q, vectors: [g, ..], second_order, .. } = &mut *of.scratch();
         of.place(now.nodes, frame);
         of.displacements(now.nodes, frame, q);
         multiply(&of.data.stiffness, q, g);
-        0.5 * q.iter().zip(&*g).map(|(q, g)| q * g).sum::<f64>()
+        let higher = of.data.second_order.as_ref().map_or(0.0, |terms| terms.energy(q, second_order));
+        0.5 * q.iter().zip(&*g).map(|(q, g)| q * g).sum::<f64>() + higher
     }
 
     fn local_rotation(&self, now: &Configuration) -> f64 {

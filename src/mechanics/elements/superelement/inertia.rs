@@ -174,13 +174,6 @@ impl FloatingElement {
         self.subtract(frame, p, F);
     }
 
-    /// Writes the mass matrix along the axes of the frame times `weight`, row-major over six degrees of freedom of each node.
-    pub fn mass_tangent(&self, nodes: &[Node], weight: f64, K: &mut [f64]) {
-        let Scratch { frame, .. } = &mut *self.scratch();
-        self.place(nodes, frame);
-        self.turned(&frame.R, &self.data.mass, weight, K);
-    }
-
     /// Writes the derivative of inertia forces and of the weight by a `field`, with the sign of a stiffness, row-major over six degrees of
     /// freedom of each node. Without gyroscopic terms inertia forces are those of the mass matrix alone.
     pub fn inertia_tangent(&self, nodes: &[Node], field: &Vec3, weights: &FloatingWeights, K: &mut [f64]) {

@@ -63,10 +63,10 @@ pub struct InertiaIntegrals {
 }
 
 /// A linear motion of the part: of the mean of the interface, of the frame, and q̇.
-struct Motion<'m> {
-    V: Vec3,
-    spin: Vec3,
-    q_rate: &'m [f64],
+pub(super) struct Motion<'m> {
+    pub V: Vec3,
+    pub spin: Vec3,
+    pub q_rate: &'m [f64],
 }
 
 impl InertiaIntegrals {
@@ -278,7 +278,7 @@ impl InertiaIntegrals {
     }
 
     /// The momenta of a motion: p and L about the mean of the interface; writes ∂T/∂q̇.
-    fn momenta(&self, of: &FloatingElement, q: &[f64], motion: &Motion, p: &mut [f64]) -> [Vec3; 2] {
+    pub(super) fn momenta(&self, of: &FloatingElement, q: &[f64], motion: &Motion, p: &mut [f64]) -> [Vec3; 2] {
         let Motion { V, spin, q_rate } = motion;
         let s = self.first_moment(q);
         multiply(&of.data.mass, q_rate, p);
@@ -290,6 +290,11 @@ impl InertiaIntegrals {
             *p += self.column(&self.S, k).dot(V) + spin.dot(&(self.column(&self.N, k) - by_place));
         }
         [self.mass * V + spin.cross(&s) + product(&self.S, q_rate), angular]
+    }
+
+    /// The momenta p and L of a unit of one rate.
+    pub(super) fn momenta_of(&self, q: &[f64], k: usize) -> [Vec3; 2] {
+        [self.column(&self.S, k), self.column(&self.N, k) - self.turning(k, q)]
     }
 
     /// Places the frame, and gives the momenta of small motions of the nodes; writes q̇ and ∂T/∂q̇.

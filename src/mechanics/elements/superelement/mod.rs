@@ -1,7 +1,7 @@
 //! A part by its matrices: stiffness, mass and damping of a few nodes and of modal amplitudes, in large motion.
 //!
 //! A frame moves with the nodes of the interface (`frame`). In it displacements u, rotations ψ = log Rᵀ R_i and amplitudes η are small: the
-//! energy ½ qᵀ K q with q = (u, ψ, η) makes forces that are objective (`elastic`). The kinetic energy is that of the velocities in the axes of
+//! energy ½ qᵀ K q with q = (u, ψ, η) makes forces that are objective (`elastic`); reduced parts have terms of higher order (`second_order`). The kinetic energy is that of the velocities in the axes of
 //! the frame, with the mean motion of the mass apart (`inertia`).
 
 mod center;
@@ -10,11 +10,14 @@ mod frame;
 mod inertia;
 mod inertia_change;
 mod integrals;
+mod mass_matrix;
 mod recovery;
+mod second_order;
 
 pub use elastic::SuperelementBlock;
 pub use integrals::{InertiaIntegrals, ModalMass, NodalMass, products};
 pub use recovery::InnerNodes;
+pub use second_order::{Product, SecondOrder};
 
 use base::math::{Mat3, Vec3, skew};
 use frame::{FloatingFrame, axial};
@@ -35,6 +38,8 @@ pub struct SuperelementData {
     pub mass: Arc<[f64]>,
     /// Damping; empty without.
     pub damping: Arc<[f64]>,
+    /// Terms of second order of a reduced part; `None` for an energy that is ½ qᵀ K q.
+    pub second_order: Option<Arc<SecondOrder>>,
 }
 
 impl SuperelementData {
@@ -98,6 +103,8 @@ struct Scratch {
     matrix: Vec<f64>,
     /// T⁻¹(ψ) of the nodes of the interface.
     inverses: Vec<Mat3>,
+    /// Memory of the terms of second order.
+    second_order: second_order::Memory,
 }
 
 impl FloatingElement {
@@ -121,6 +128,7 @@ impl FloatingElement {
             vectors: std::array::from_fn(|_| vec![0.0; size]),
             matrix: vec![0.0; size * size],
             inverses: vec![Mat3::identity(); n],
+            second_order: data.second_order.as_deref().map(second_order::Memory::new).unwrap_or_default(),
         };
         let mass = (!data.mass.is_empty()).then(|| MassProperties::of(&data.mass, n, &Y));
         FloatingElement { data, x, Y, turning, beta, mass, scratch: Mutex::new(scratch) }

@@ -23,7 +23,9 @@ pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &Syst
         let (of, mass, elements) = (joined(&words), short(body.mass), rigid.elements);
         text.add("rigid", format!("{of} as body `{}`, mass {mass}, in place of its {elements} elements", body.name));
     }
-    model.reductions.iter().for_each(|of| text.add("reduced", reduced(of)));
+    for pieces in model.reductions.chunk_by(|a, b| a.parts == b.parts) {
+        text.add("reduced", reduced(&pieces[0], pieces.len()));
+    }
     text.add("unknowns", plan.dofs.unknowns().to_string());
     let multipliers = system.multipliers();
     if multipliers > 0 {
@@ -34,15 +36,16 @@ pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &Syst
     PARTS.iter().for_each(|explain| explain(text, model, system));
 }
 
-/// A reduced part in words.
-fn reduced(of: &Reduction) -> String {
-    let Some(made) = &of.made else { return of.title.clone() };
+/// A reduced part, or pieces of one, in words.
+fn reduced(of: &Reduction, pieces: usize) -> String {
+    let title = if pieces > 1 { format!("`{}` in {pieces} pieces, each", of.name) } else { of.title.clone() };
+    let Some(made) = &of.made else { return title };
     let (interface, modes) = (6 * of.interface.len(), made.frequencies.len());
     let up_to = made.frequencies.last().map_or(String::new(), |last| format!(" up to {}", short(*last)));
     let next = made.next.map_or(String::new(), |next| format!("; the next mode has {}", short(next)));
+    let linear = if made.matrices.second_order.is_some() { "" } else { "; no geometric stiffness" };
     format!(
-        "{}: {interface} unknowns of the interface and {modes} modes{up_to}, in place of {}{next}",
-        of.title,
+        "{title}: {interface} unknowns of the interface and {modes} modes{up_to}, in place of {}{next}{linear}",
         interface + made.replaced
     )
 }

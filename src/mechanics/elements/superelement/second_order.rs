@@ -1,0 +1,138 @@
+//! Terms of second order in the elastic energy of a reduced part: bending shortens it, and axial forces stiffen it.
+//!
+//! The coordinates p = L q are those of vectors v_i with K v_i = λ_i W v_i, softest first, where W weighs displacements of all nodes alike.
+//! The cubic part of the energy, Σ c_ijk p_i p_j p_k over i ≥ j ≥ k, belongs to the stiffest of the three. So the energy is
+//!   U = ½ qᵀ K q + Σ λ_i (p_i e_i + ½ e_i²),  e_i = Σ c_ijk p_j p_k / λ_i,
+//! the square ½ λ_i (p_i + e_i)² in each of them: a beam that bends freely becomes shorter by −e and keeps no axial force.
+
+/// The coordinates and their products.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SecondOrder {
+    /// L: a row for each coordinate.
+    pub coordinates: Vec<f64>,
+    /// λ of each coordinate.
+    pub stiffness: Vec<f64>,
+    /// The products.
+    pub terms: Vec<Product>,
+}
+
+/// Two coordinates whose product, times a factor, adds to another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Product {
+    /// i.
+    pub sum: usize,
+    /// j and k.
+    pub of: [usize; 2],
+    /// c_ijk / λ_i.
+    pub factor: f64,
+}
+
+/// Memory of an evaluation.
+#[derive(Debug, Clone, Default)]
+pub struct Memory {
+    p: Vec<f64>,
+    e: Vec<f64>,
+    /// λ_i (p_i + e_i).
+    s: Vec<f64>,
+    /// ∂U/∂p without the part of K.
+    force: Vec<f64>,
+    /// ∂e/∂p.
+    E: Vec<f64>,
+    /// ∂²U/∂p² without Λ.
+    change: Vec<f64>,
+    /// Its product with L.
+    product: Vec<f64>,
+}
+
+impl Memory {
+    /// Memory for these terms.
+    pub fn new(of: &SecondOrder) -> Memory {
+        let count = of.stiffness.len();
+        let vector = vec![0.0; count];
+        let square = vec![0.0; count * count];
+        Memory {
+            p: vector.clone(),
+            e: vector.clone(),
+            s: vector.clone(),
+            force: vector,
+            E: square.clone(),
+            change: square,
+            product: vec![0.0; of.coordinates.len()],
+        }
+    }
+}
+
+impl SecondOrder {
+    /// Writes p, e and λ (p + e).
+    fn evaluate(&self, q: &[f64], Memory { p, e, s, .. }: &mut Memory) {
+        for (p, row) in p.iter_mut().zip(self.coordinates.chunks_exact(q.len())) {
+            *p = super::dot(row, q);
+        }
+        e.fill(0.0);
+        for Product { sum, of: [j, k], factor } in &self.terms {
+            e[*sum] += factor * p[*j] * p[*k];
+        }
+        for (i, s) in s.iter_mut().enumerate() {
+            *s = self.stiffness[i] * (p[i] + e[i]);
+        }
+    }
+
+    /// The energy beside ½ qᵀ K q.
+    pub fn energy(&self, q: &[f64], memory: &mut Memory) -> f64 {
+        self.evaluate(q, memory);
+        let Memory { p, e, .. } = memory;
+        (0..p.len()).map(|i| self.stiffness[i] * e[i] * (p[i] + 0.5 * e[i])).sum()
+    }
+
+    /// Adds its derivatives by q to `g`.
+    pub fn add_forces(&self, q: &[f64], memory: &mut Memory, g: &mut [f64]) {
+        self.evaluate(q, memory);
+        let Memory { p, e, s, force, .. } = memory;
+        for (i, force) in force.iter_mut().enumerate() {
+            *force = self.stiffness[i] * e[i];
+        }
+        for Product { sum, of: [j, k], factor } in &self.terms {
+            let by = factor * s[*sum];
+            force[*j] += by * p[*k];
+            force[*k] += by * p[*j];
+        }
+        for (force, row) in force.iter().zip(self.coordinates.chunks_exact(q.len())) {
+            super::add_multiple(g, *force, row);
+        }
+    }
+
+    /// Adds its second derivatives by q to a square matrix.
+    pub fn add_stiffness(&self, q: &[f64], memory: &mut Memory, K: &mut [f64]) {
+        self.evaluate(q, memory);
+        let Memory { p, s, E, change, product, .. } = memory;
+        let (count, size) = (p.len(), q.len());
+        E.fill(0.0);
+        change.fill(0.0);
+        for Product { sum, of: [j, k], factor } in &self.terms {
+            E[sum * count + j] += factor * p[*k];
+            E[sum * count + k] += factor * p[*j];
+            change[j * count + k] += s[*sum] * factor;
+            change[k * count + j] += s[*sum] * factor;
+        }
+        // ΛE + EᵀΛ + EᵀΛE = EᵀΛ (I + E) + ΛE
+        for (i, (row, stiffness)) in E.chunks_exact(count).zip(&self.stiffness).enumerate() {
+            for j in (0..count).filter(|&j| row[j] != 0.0) {
+                let by = stiffness * row[j];
+                super::add_multiple(&mut change[j * count..(j + 1) * count], by, row);
+                change[j * count + i] += by;
+                change[i * count + j] += by;
+            }
+        }
+        product.fill(0.0);
+        for (product, row) in product.chunks_exact_mut(size).zip(change.chunks_exact(count)) {
+            for (entry, coordinate) in row.iter().zip(self.coordinates.chunks_exact(size)) {
+                super::add_multiple(product, *entry, coordinate);
+            }
+        }
+        for (coordinate, product) in self.coordinates.chunks_exact(size).zip(product.chunks_exact(size)) {
+            for (K, by) in K.chunks_exact_mut(size).zip(coordinate) {
+                super::add_multiple(K, *by, product);
+            }
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! The terms of second order of a reduced part: how products of its displacements stretch it, from the forces of its elements in states that
+//! its shapes deform.
+//!
+//! The forces along a shape i in the state of displacements d are ∂U/∂q_i. Their part of second order, ½ Σ T_ijk d_j d_k, has the third
+//! derivatives T of the energy. They are those about small rotations of nodes that are rotation vectors, as the nodes inside move.
+
+use super::linearized::Linearized;
+use super::own_nodes::OwnNodes;
+use crate::tolerances::second_order::{LARGEST, LEAST, SIZE, SOFT, TURN};
+use base::math::rotation::{exp, rates};
+use base::math::{Vec3, stack};
+use mechanics::elements::Force;
+use mechanics::elements::superelement::{Product, SecondOrder};
+use mechanics::state::{Configuration, Node};
+use nalgebra::{DMatrix, DVector};
+
+/// The terms of a part with these shapes and this stiffness; `None` where it is too large for them, or has none.
+pub fn second_order(
+    at: &Linearized,
+    (own, shapes): (&OwnNodes, &DMatrix<f64>),
+    stiffness: &DMatrix<f64>,
+) -> Option<SecondOrder> {
+    let size = shapes.ncols();
+    if size > LARGEST {
+        return None;
+    }
+    let nodes = own.nodes();
+    let x: Vec<Vec3> = nodes.iter().map(|&node| at.model.nodes[node].x).collect();
+    let middle = x.iter().sum::<Vec3>() / x.len() as f64;
+    let extent = x.iter().map(|x| (x - middle).norm()).fold(0.0, f64::max);
+    // Displacements and rotations of all nodes, side by side.
+    let weights: Vec<f64> = (0..6 * x.len()).map(|row| if row % 6 < 3 { 1.0 } else { TURN * extent }).collect();
+    let weighed = DMatrix::from_fn(shapes.nrows(), size, |row, k| weights[row] * shapes[(row, k)]);
+    let gram = weighed.tr_mul(&weighed);
+    let factor = gram.clone().cholesky()?.unpack();
+    let half = factor.solve_lower_triangular(stiffness)?;
+    let scaled = factor.solve_lower_triangular(&half.transpose())?;
+    let eigen = (0.5 * (&scaled + scaled.transpose())).symmetric_eigen();
+    let mut order: Vec<usize> = (0..size).collect();
+    order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
+    // The softest six are the rigid motions.
+    let order = order.get(6..).filter(|order| !order.is_empty())?;
+    let lambda: Vec<f64> = order.iter().map(|&k| eigen.eigenvalues[k]).collect();
+    let vectors = DMatrix::from_fn(size, order.len(), |row, k| eigen.eigenvectors[(row, order[k])]);
+    let vectors = factor.tr_solve_lower_triangular(&vectors)?;
+    let motions = shapes * &vectors;
+    let coordinates = (gram * &vectors).transpose();
+    let mut deformed = Deformed { at, own, motions: &motions, nodes: at.nodes_at_rest(), F: Vec::new() };
+    let scales: Vec<f64> = (0..order.len())
+        .map(|k| {
+            let column = motions.column(k);
+            let most = column.iter().zip(&weights).fold(0.0, |most: f64, (x, weight)| most.max((x * weight).abs()));
+            SIZE * extent / most
+        })
+        .collect();
+    let soft = order.len().min(SOFT);
+    let terms = products(&mut deformed, &lambda, &scales[..soft]);
+    Some(kept(terms, &coordinates, lambda)).filter(|terms| !terms.terms.is_empty())
+}
+
+/// The part with its nodes displaced by multiples of motions.
+struct Deformed<'a> {
+    at: &'a Linearized<'a>,
+    own: &'a OwnNodes,
+    /// Six rows for each node, and a column for each coordinate.
+    motions: &'a DMatrix<f64>,
+    nodes: Vec<Node>,
+    F: Vec<Force>,
+}
+
+impl Deformed<'_> {
+    /// ∂U/∂p of all coordinates, where these nodes are displaced.
+    fn forces(&mut self, moved: &DVector<f64>) -> DVector<f64> {
+        let of = self.own.nodes();
+        let part = |k: usize, at: usize| Vec3::new(moved[6 * k + at], moved[6 * k + at + 1], moved[6 * k + at + 2]);
+        for (k, &node) in of.iter().enumerate() {
+            let x = &self.at.model.nodes[node].x;
+            self.nodes[node].place(x, &Vec3::zeros(), &part(k, 0));
+            self.nodes[node].rotation = exp(&part(k, 3));
+        }
+        self.F.clear();
+        self.F.resize(self.nodes.len(), [0.0; 6]);
+        let now = Configuration { nodes: &self.nodes, history: &self.at.state.history, dt: 0.0, previous: None };
+        for group in &self.at.system.groups {
+            group.block.subtract_forces(&group.configuration(&now), &mut self.F);
+        }
+        let mut forces = DVector::zeros(moved.len());
+        for (k, &node) in of.iter().enumerate() {
+            let F = self.F[node].map(|force| -force);
+            let moment = Vec3::new(F[3], F[4], F[5]);
+            let turned = rates(&-part(k, 3), &moment, &Vec3::zeros()).0;
+            let force = stack(&Vec3::new(F[0], F[1], F[2]), &turned);
+            forces.fixed_rows_mut::<6>(6 * k).copy_from(&force);
+        }
+        self.motions.tr_mul(&forces)
+    }
+
+    /// The part of even order of the forces.
+    fn even(&mut self, moved: &DVector<f64>) -> DVector<f64> {
+        0.5 * (self.forces(moved) + self.forces(&-moved))
+    }
+}
+
+/// The products of the softest coordinates, each with a size that the part may have.
+fn products(deformed: &mut Deformed, lambda: &[f64], scales: &[f64]) -> Vec<(Product, f64)> {
+    let motions = deformed.motions;
+    let moved: Vec<DVector<f64>> = scales.iter().enumerate().map(|(k, scale)| *scale * motions.column(k)).collect();
+    let squares: Vec<DVector<f64>> = moved.iter().map(|moved| deformed.even(moved)).collect();
+    let mut terms = Vec::new();
+    for k in 0..scales.len() {
+        for j in 0..=k {
+            let scale = scales[j] * scales[k];
+            let third = match j == k {
+                true => 2.0 * &squares[j],
+                false => deformed.even(&(&moved[j] + &moved[k])) - &squares[j] - &squares[k],
+            } / scale;
+            for sum in k..lambda.len() {
+                let shared = match (sum == k, j == k) {
+                    (true, true) => 6.0,
+                    (false, false) => 1.0,
+                    _ => 2.0,
+                };
+                let size = third[sum].abs() / (lambda[sum] * lambda[j] * lambda[k]).sqrt();
+                let factor = third[sum] / (shared * lambda[sum]);
+                terms.push((Product { sum, of: [j, k], factor }, size));
+            }
+        }
+    }
+    terms
+}
+
+/// The terms of weight, with the coordinates in them.
+fn kept(mut terms: Vec<(Product, f64)>, coordinates: &DMatrix<f64>, lambda: Vec<f64>) -> SecondOrder {
+    let largest = terms.iter().map(|(_, size)| *size).fold(0.0, f64::max);
+    terms.retain(|(_, size)| *size > LEAST * largest);
+    let used: Vec<usize> =
+        (0..lambda.len()).filter(|k| terms.iter().any(|(term, _)| term.sum == *k || term.of.contains(k))).collect();
+    let place = |k: usize| used.partition_point(|other| *other < k);
+    SecondOrder {
+        coordinates: used.iter().flat_map(|&k| coordinates.row(k).iter().copied().collect::<Vec<f64>>()).collect(),
+        stiffness: used.iter().map(|&k| lambda[k]).collect(),
+        terms: terms
+            .iter()
+            .map(|(term, _)| Product { sum: place(term.sum), of: term.of.map(place), factor: term.factor })
+            .collect(),
+    }
+}
