@@ -73,8 +73,7 @@ pub struct ReducedTable {
     pub modes: Maybe<u64>,
     /// The highest frequency of these modes, above 0, in cycles per time. Default: without bound.
     pub up_to: Maybe<f64>,
-    /// A beam along a path is cut into so many pieces of equal numbers of elements, each with these modes and a frame of its own: for beams that
-    /// bend by more than 0.05 rad. Default: 1.
+    /// Pieces of a beam along a path, each with these modes and a frame of its own. Beams that bend by more than 0.3 rad need several. Default: 1.
     pub pieces: Maybe<u64>,
     /// Bending shortens the part, and forces in it stiffen it: terms of second order. Parts with more than 100 unknowns of interface and modes
     /// have none. Default: true.

@@ -128,13 +128,8 @@ fn reductions_of(
     pieces.into_iter().map(|piece| reduction(model, of, (&extent, piece), acting, report)).collect()
 }
 
-/// The parts as they are, or pieces of a beam.
-fn pieces(
-    model: &Model,
-    of: &Asked,
-    (parts, count): (&[usize], usize),
-    report: &mut Report,
-) -> Option<Vec<Reduction>> {
+/// Whole parts, or pieces of a beam.
+fn pieces(model: &Model, of: &Asked, (parts, count): (&[usize], usize), report: &mut Report) -> Option<Vec<Reduction>> {
     let piece = |title: String, elements: Option<Range<usize>>| Reduction {
         name: of.name.clone(),
         title,
@@ -157,7 +152,7 @@ fn pieces(
     let (message, hint) = match is_path {
         false => (
             format!("{} cannot be cut into `pieces`", of.title),
-            "only a beam along a `path` can: leave `pieces` out, or give each part a `reduced` of its own",
+            "`pieces` divide a beam along a `path`. Leave `pieces` out, or give each part a `reduced` of its own",
         ),
         true if count > all => (
             format!("{} has {all} elements, and {count} pieces need one each at least", of.title),
@@ -263,7 +258,7 @@ fn one_damping(
     Some(damping)
 }
 
-/// What the deck asks of a reduced part.
+/// The modes and the form of a reduced part in the deck.
 struct Extent {
     modes: usize,
     /// The highest frequency.

@@ -288,8 +288,8 @@ pub mod strain {
     pub const LARGE: f64 = 0.05;
     /// Limits for the truncated series of logarithmic strain: at stretches of 1.34 and 0.75 forces are wrong by a hundredth.
     pub const LARGE_LOGARITHMIC: [f64; 2] = [-0.22, 0.4];
-    /// Rotation in the frame of a superelement, in radians, with an error of displacements of 0.3 %, a third of its square.
-    pub const BENT: f64 = 0.1;
+    /// Error of displacements by rotations in the frame of a superelement or a reduced part.
+    pub const BENT: f64 = 0.003;
     /// Number of checks of strains in a run: plastic strains do not disappear.
     pub const LOOKS: f64 = 100.0;
 }
@@ -942,15 +942,15 @@ pub mod throws {
 }
 
 pub mod second_order {
-    /// Most unknowns of a reduced part with terms of second order: a step takes their number squared for each coordinate.
+    /// Most unknowns of a reduced part with terms of second order. Each tangent costs the square of their number for each coordinate.
     pub const LARGEST: usize = 100;
     /// The softest coordinates, whose products count. Stiffer ones stay small.
     pub const SOFT: usize = 20;
-    /// Weight of a rotation beside a displacement, as a part of the extent: about the radius of a section. So torsion counts as stiff beside bending,
-    /// and follows it.
-    pub const TURN: f64 = 0.01;
-    /// Displacements that deform the part, as a part of its extent. The next terms are smaller by the square of this, and rounding by 1e-8.
-    pub const SIZE: f64 = 1e-4;
+    /// Weight of a translation over the extent beside a slope: rigid motions are far from all others.
+    pub const TRANSLATION: f64 = 0.1;
+    /// Slopes of the states that give the terms. The next terms of even order are smaller by the square of this, and 10,000 times as large for beams
+    /// without shear. Their rounding is 1e-5.
+    pub const SLOPE: f64 = 2e-4;
     /// Terms of less weight at equal energies, as a part of the largest: rounding, and what nobody sees.
     pub const LEAST: f64 = 1e-6;
 }

@@ -92,6 +92,8 @@ pub enum Warning {
         name: String,
         /// True for a reduced part.
         reduced: bool,
+        /// True where its forces are linear in its frame.
+        linear: bool,
         /// The largest rotation of a node in its frame, in radians.
         turn: f64,
     },
@@ -157,7 +159,7 @@ keep_either!(Warning {
     15 => SlipBegins(what),
     20 => LargeRotation { label, turn },
     21 => BeyondYield { name, stress, limit },
-    22 => Bent { name, reduced, turn },
+    22 => Bent { name, reduced, linear, turn },
 });
 
 /// The time and the mode of an instability.
@@ -374,7 +376,7 @@ impl fmt::Display for Warning {
             Warning::RotationDrifts { label, direction, drift } => drifted(label, direction, *drift),
             Warning::LargeRotation { label, turn } => large_rotation(label, *turn),
             Warning::BeyondYield { name, stress, limit } => beyond_yield(name, *stress, *limit),
-            Warning::Bent { name, reduced, turn } => bent(name, *reduced, *turn),
+            Warning::Bent { name, reduced, linear, turn } => bent(name, [*reduced, *linear], *turn),
             Warning::LargeStrain { name, strain, logarithmic } => large_strain(name, *strain, *logarithmic),
             Warning::SideBySide { name } => side_by_side(name),
             Warning::ContactThrows(found) => found.to_string(),
@@ -398,17 +400,25 @@ fn large_rotation(label: &str, turn: f64) -> String {
     )
 }
 
+/// The error of displacements in a part that turns in its frame by so many radians.
+pub fn bending_error(linear: bool, turn: f64) -> f64 {
+    if linear { turn * turn / 3.0 } else { turn.powi(4) / 5.0 }
+}
+
 /// The message of a superelement or a reduced part that is bent too far.
-fn bent(name: &str, reduced: bool, turn: f64) -> String {
+fn bent(name: &str, [reduced, linear]: [bool; 2], turn: f64) -> String {
     let [what, remedy] = match reduced {
         false => ["superelement", "Replace it by several superelements, or by `[[beams]]` or `[[shells]]`"],
-        true => ["reduced part", "Divide it into several reduced parts, or leave `reduced` out"],
+        true => ["reduced part", "Divide it by `pieces` or into several reduced parts, or leave `reduced` out"],
+    };
+    let why = match linear {
+        true => "Its matrices take them as infinitesimal",
+        false => "Its energy ends with the terms of third order",
     };
     format!(
-        "{what} `{name}` deforms by rotations of {} rad in its frame. Its matrices take them as infinitesimal, so displacements there are \
-         wrong by about {} %. {remedy}",
+        "{what} `{name}` deforms by rotations of {} rad in its frame. {why}, so displacements there are wrong by about {} %. {remedy}",
         to_digits(turn, 2),
-        to_digits(100.0 * turn * turn / 3.0, 1)
+        to_digits(100.0 * bending_error(linear, turn), 1)
     )
 }
 
@@ -495,19 +505,16 @@ impl Warnings {
         }
     }
 
-    /// Adds the largest rotation of a superelement or a reduced part in its frame, or keeps it where it is larger than the one known.
-    pub fn bend(&mut self, part: &str, is_reduced: bool, largest: f64) {
-        let known = self.warnings.iter_mut().find_map(|known| match known {
-            Warning::Bent { name, reduced, turn } => Some((name, reduced, turn)),
+    /// Adds a superelement or a reduced part that turns in its frame by this angle, if its error is larger than that known.
+    pub fn bend(&mut self, name: &str, [reduced, linear]: [bool; 2], turn: f64) {
+        let found = Warning::Bent { name: name.to_owned(), reduced, linear, turn };
+        let known = self.warnings.iter_mut().find_map(|known| match *known {
+            Warning::Bent { linear, turn, .. } => Some((bending_error(linear, turn), known)),
             _ => None,
         });
         match known {
-            None => self.warnings.push(Warning::Bent { name: part.to_owned(), reduced: is_reduced, turn: largest }),
-            Some((name, reduced, turn)) if largest > *turn => {
-                part.clone_into(name);
-                *reduced = is_reduced;
-                *turn = largest;
-            }
+            None => self.warnings.push(found),
+            Some((error, known)) if bending_error(linear, turn) > error => *known = found,
             Some(_) => {}
         }
     }

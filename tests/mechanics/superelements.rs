@@ -5,7 +5,8 @@ use nalgebra::DMatrix;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::superelement::{
-    FloatingElement, FloatingWeights, InnerNodes, Product, SecondOrder, SuperelementBlock, SuperelementData,
+    FloatingElement, FloatingWeights, InertiaIntegrals, InnerNodes, ModalMass, NodalMass, Product, SecondOrder,
+    SuperelementBlock, SuperelementData,
 };
 use rdsolve::elements::{Force, Mechanics, Moduli, Results};
 use rdsolve::math::rotation::{exp, rates};
@@ -61,7 +62,8 @@ impl Random {
         }
         let coordinates = random(COORDINATES) * &rest;
         let entries = |matrix: DMatrix<f64>| Arc::from(matrix.as_slice());
-        let products = (0..COORDINATES).flat_map(|sum| (0..=sum).flat_map(move |k| (0..=k).map(move |j| (sum, [j, k]))));
+        let products =
+            (0..COORDINATES).flat_map(|sum| (0..=sum).flat_map(move |k| (0..=k).map(move |j| (sum, [j, k]))));
         let second_order = SecondOrder {
             coordinates: coordinates.transpose().as_slice().to_vec(),
             stiffness: (1..=COORDINATES).map(|k| k as f64).collect(),
@@ -555,6 +557,46 @@ fn inner_nodes_turn_with_the_whole() {
                 assert!((now - R * then).norm() < 1e-11 * (1.0 + then.norm()), "{now} {then}");
             }
             assert!((now.R() - R * then.R()).norm() < 1e-12);
+        }
+    }
+}
+
+/// The mass matrix of a reduced part in a bent state has the momenta of its integrals as columns.
+#[test]
+fn the_mass_matrix_of_a_bent_part_gives_its_momenta() {
+    for mut random in all().into_iter().filter(|random| random.data.turns) {
+        let (size, interface) = (random.data.size(), random.data.interface);
+        let mean = random.x[..interface].iter().sum::<Vec3>() / interface as f64;
+        let mut Y: Vec<Vec3> = random.x[..interface].iter().map(|x| x - mean).collect();
+        let rng = &mut random.rng;
+        Y.extend([vector(rng, 1.0), vector(rng, 1.0)]);
+        let rotary = (0..Y.len()).map(|node| {
+            let root = Mat3::from_fn(|_, _| rng.random_range(-1.0..1.0));
+            NodalMass { node, J0: root * root.transpose() }
+        });
+        let rotary = rotary.collect();
+        let masses = (0..Y.len()).flat_map(|i| [(i, i, 2.0), (i, 0, 0.1), (0, i, 0.1)]).collect();
+        let shapes = DMatrix::from_fn(6 * Y.len(), size, |row, k| match row < 6 * interface {
+            true => f64::from(u8::from(row == k)),
+            false => rng.random_range(-0.3..0.3),
+        });
+        let of_mass = ModalMass { Y, masses, rotary };
+        let integrals = InertiaIntegrals::new(&of_mass, &shapes);
+        random.data.mass = Arc::from(of_mass.matrix(&shapes).as_slice());
+        let (of, nodes) = (random.element(), random.state(0.3, 0.0));
+        let width = 6 * nodes.len();
+        let mut M = vec![0.0; width * width];
+        integrals.mass_tangent(&of, &nodes, 2.0, &mut M);
+        let largest = M.iter().fold(0.0, |largest: f64, m| largest.max(m.abs()));
+        for &(node, dof) in &random.dofs() {
+            let (mut motions, mut F) = (vec![Vec6::zeros(); nodes.len()], vec![[0.0; 6]; nodes.len()]);
+            motions[node][dof] = 1.0;
+            integrals.subtract_product(&of, &nodes, &motions, 2.0, &mut F);
+            for &(row, direction) in &random.dofs() {
+                let found = M[(6 * row + direction) * width + 6 * node + dof];
+                // Rounding.
+                assert!((found + F[row][direction]).abs() < 1e-13 * largest, "{found} {}", F[row][direction]);
+            }
         }
     }
 }

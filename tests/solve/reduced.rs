@@ -300,7 +300,10 @@ fn what_shapes_do_not_have_is_refused() {
         (format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = 2.5")), "a whole number of modes"),
         (format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = {}")), "`reduced` asks for nothing"),
         (format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = { pieces = 0 }")), "`pieces` is 0"),
-        (format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = { modes = 2, pieces = 11 }")), "has 10 elements, and 11 pieces"),
+        (
+            format!("{dynamic}{}", arm.replace("reduced = 5", "reduced = { modes = 2, pieces = 11 }")),
+            "has 10 elements, and 11 pieces",
+        ),
         (
             format!("{dynamic}{}", reduced(PLATE, 5).replace("reduced = 5", "reduced = { modes = 5, pieces = 2 }")),
             "shell `plate` cannot be cut",

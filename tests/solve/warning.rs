@@ -41,7 +41,7 @@ fn warnings() -> Vec<Warning> {
         Warning::LargeStrain { name: "hood".to_owned(), strain: 0.78, logarithmic: true },
         Warning::LargeRotation { label: "tip".to_owned(), turn: 0.21 },
         Warning::BeyondYield { name: "post".to_owned(), stress: 4.1e8, limit: 2.35e8 },
-        Warning::Bent { name: "blade".to_owned(), reduced: false, turn: 0.24 },
+        Warning::Bent { name: "blade".to_owned(), reduced: false, linear: true, turn: 0.24 },
         Warning::RotationDrifts { label: "ship".to_owned(), direction: "rz", drift: 0.031 },
         Warning::ContactThrows(throws),
         Warning::SlipBegins(on_contact),

@@ -4,7 +4,7 @@
 use crate::context::Context;
 use crate::guards::guard::{Guard, Taken};
 use crate::tolerances::strain::{BENT, LARGE, LARGE_LOGARITHMIC, LOOKS};
-use crate::warning::Warnings;
+use crate::warning::{Warnings, bending_error};
 use crate::workspace::Workspace;
 use mechanics::state::State;
 
@@ -25,22 +25,27 @@ fn look(cx: &Context, warnings: &mut Warnings, state: &State) {
     let now = state.configuration();
     for following in cx.system.following() {
         let turn = following.rotation(&state.nodes);
-        if turn > BENT {
-            warnings.bend(&following.name, true, turn);
-        }
+        bend(warnings, &following.name, [true, following.is_linear()], turn);
     }
     for group in &cx.system.groups {
         let own = group.configuration(&now);
-        let turn = group.block.local_rotation(&own);
-        if turn > BENT {
-            let of = cx.model.reduction(group.part);
-            warnings.bend(of.map_or(group.part_of(0, cx.model).name(), |of| &of.name), group.reduces, turn);
-        }
+        let of = cx.model.reduction(group.part).filter(|_| group.reduces);
+        let made = of.and_then(|of| of.made.as_ref());
+        let is_linear = made.is_none_or(|made| made.matrices.second_order.is_none());
+        let name = of.map_or_else(|| group.part_of(0, cx.model).name(), |of| &of.name);
+        bend(warnings, name, [of.is_some(), is_linear], group.block.local_rotation(&own));
         group.block.surface_strains(&own, &mut |e, strain, is_logarithmic| {
             let [least, most] = if is_logarithmic { LARGE_LOGARITHMIC } else { [-LARGE, LARGE] };
             if !(least..=most).contains(&strain) {
                 warnings.stretch(group.part_of(e, cx.model).name(), (strain, is_logarithmic));
             }
         });
+    }
+}
+
+/// Warns of a part that is bent too far.
+fn bend(warnings: &mut Warnings, name: &str, [reduced, linear]: [bool; 2], turn: f64) {
+    if bending_error(linear, turn) > BENT {
+        warnings.bend(name, [reduced, linear], turn);
     }
 }

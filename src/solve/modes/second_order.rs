@@ -5,14 +5,15 @@
 //! derivatives T of the energy. They are those about small rotations of nodes that are rotation vectors, as the nodes inside move.
 
 use super::linearized::Linearized;
-use super::own_nodes::OwnNodes;
-use crate::tolerances::second_order::{LARGEST, LEAST, SIZE, SOFT, TURN};
+use super::own_nodes::{OwnNodes, each_element};
+use crate::tolerances::second_order::{LARGEST, LEAST, SLOPE, SOFT, TRANSLATION};
 use base::math::rotation::{exp, rates};
 use base::math::{Vec3, stack};
 use mechanics::elements::Force;
 use mechanics::elements::superelement::{Product, SecondOrder};
 use mechanics::state::{Configuration, Node};
 use nalgebra::{DMatrix, DVector};
+use std::collections::BTreeSet;
 
 /// The terms of a part with these shapes and this stiffness; `None` where it is too large for them, or has none.
 pub fn second_order(
@@ -24,14 +25,8 @@ pub fn second_order(
     if size > LARGEST {
         return None;
     }
-    let nodes = own.nodes();
-    let x: Vec<Vec3> = nodes.iter().map(|&node| at.model.nodes[node].x).collect();
-    let middle = x.iter().sum::<Vec3>() / x.len() as f64;
-    let extent = x.iter().map(|x| (x - middle).norm()).fold(0.0, f64::max);
-    // Displacements and rotations of all nodes, side by side.
-    let weights: Vec<f64> = (0..6 * x.len()).map(|row| if row % 6 < 3 { 1.0 } else { TURN * extent }).collect();
-    let weighed = DMatrix::from_fn(shapes.nrows(), size, |row, k| weights[row] * shapes[(row, k)]);
-    let gram = weighed.tr_mul(&weighed);
+    let slopes = slopes(at, own, shapes);
+    let gram = slopes.tr_mul(&slopes);
     let factor = gram.clone().cholesky()?.unpack();
     let half = factor.solve_lower_triangular(stiffness)?;
     let scaled = factor.solve_lower_triangular(&half.transpose())?;
@@ -46,16 +41,39 @@ pub fn second_order(
     let motions = shapes * &vectors;
     let coordinates = (gram * &vectors).transpose();
     let mut deformed = Deformed { at, own, motions: &motions, nodes: at.nodes_at_rest(), F: Vec::new() };
-    let scales: Vec<f64> = (0..order.len())
-        .map(|k| {
-            let column = motions.column(k);
-            let most = column.iter().zip(&weights).fold(0.0, |most: f64, (x, weight)| most.max((x * weight).abs()));
-            SIZE * extent / most
-        })
-        .collect();
     let soft = order.len().min(SOFT);
-    let terms = products(&mut deformed, &lambda, &scales[..soft]);
+    let turned = &slopes * vectors.columns(0, soft);
+    let scales: Vec<f64> = turned.column_iter().map(|column| SLOPE / column.amax()).collect();
+    let terms = products(&mut deformed, &lambda, &scales);
     Some(kept(terms, &coordinates, lambda)).filter(|terms| !terms.terms.is_empty())
+}
+
+/// The slopes of shapes: rotations of nodes, displacements of nodes of an element beside one another over their distance, and a tenth of
+/// displacements over the extent, which measures translations. Stretching is stiff by this measure, and bending soft at any wavelength.
+fn slopes(at: &Linearized, own: &OwnNodes, shapes: &DMatrix<f64>) -> DMatrix<f64> {
+    let nodes = own.nodes();
+    let x = |k: usize| at.model.nodes[nodes[k]].x;
+    let extent = (1..nodes.len()).map(|k| (x(k) - x(0)).norm()).fold(0.0, f64::max);
+    let mut pairs = BTreeSet::new();
+    each_element(at, &at.nodes_at_rest(), |of, _, _| {
+        let places: Vec<usize> = of.iter().map(|&node| own.place[node]).collect();
+        let of_one = |(i, &a): (usize, &usize)| places[..i].iter().map(|&b| (a.min(b), a.max(b))).collect::<Vec<_>>();
+        pairs.extend(places.iter().enumerate().flat_map(of_one).filter(|&(a, b)| x(a) != x(b)));
+    });
+    let rows = shapes.nrows();
+    let mut slopes = DMatrix::zeros(rows + 3 * pairs.len(), shapes.ncols());
+    for row in 0..rows {
+        let factor = if row % 6 < 3 { TRANSLATION / extent } else { 1.0 };
+        slopes.row_mut(row).copy_from(&(factor * shapes.row(row)));
+    }
+    for (pair, (a, b)) in pairs.into_iter().enumerate() {
+        let distance = (x(a) - x(b)).norm();
+        for axis in 0..3 {
+            let change = shapes.row(6 * a + axis) - shapes.row(6 * b + axis);
+            slopes.row_mut(rows + 3 * pair + axis).copy_from(&(change / distance));
+        }
+    }
+    slopes
 }
 
 /// The part with its nodes displaced by multiples of motions.

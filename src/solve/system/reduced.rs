@@ -27,6 +27,11 @@ impl FollowingNodes {
         Some(FollowingNodes { element: Arc::new(element), inner, name: of.name.clone() })
     }
 
+    /// True where the elastic forces of the part are linear in its frame.
+    pub fn is_linear(&self) -> bool {
+        self.element.is_linear()
+    }
+
     /// The nodes.
     pub fn nodes(&self) -> &[usize] {
         self.inner.nodes()

@@ -1,4 +1,4 @@
-//! The mass matrix of a reduced part as it is bent now: with mass beside its axis it turns about the axis as a body does.
+//! The mass matrix of a reduced part in its bent state. Mass beside the axis has inertia about it, beside the small one of sections.
 
 use super::integrals::{InertiaIntegrals, Motion};
 use super::{FloatingElement, Scratch, add_multiple, set_three};
@@ -37,7 +37,8 @@ impl InertiaIntegrals {
                 (sum, h) = (sum + rate * linear, h + rate * angular);
             };
             match moved.node < interface && moved.direction > 2 {
-                true => (0..3).for_each(|axis| add(6 * moved.node + 3 + axis, inverses[moved.node][(axis, moved.direction - 3)])),
+                true => (0..3)
+                    .for_each(|axis| add(6 * moved.node + 3 + axis, inverses[moved.node][(axis, moved.direction - 3)])),
                 false => add(moved.dof, 1.0),
             }
             let mean = moved.mean(interface);

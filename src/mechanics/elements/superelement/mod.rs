@@ -139,6 +139,11 @@ impl FloatingElement {
         &self.data.nodes
     }
 
+    /// True where the elastic forces are linear in the frame.
+    pub fn is_linear(&self) -> bool {
+        self.data.second_order.is_none()
+    }
+
     /// The mass of the whole.
     pub fn total_mass(&self) -> f64 {
         self.mass.as_ref().map_or(0.0, |mass| mass.total)
