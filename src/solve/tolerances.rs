@@ -946,6 +946,8 @@ pub mod second_order {
     pub const LARGEST: usize = 100;
     /// The softest coordinates, whose products count. Stiffer ones stay small.
     pub const SOFT: usize = 20;
+    /// Stiffness of a mechanism as a part of the largest: rounding. Beams without shear, a thousand times as long as thick, bend with 1e-10.
+    pub const MECHANISM: f64 = 1e-12;
     /// Weight of a translation over the extent beside a slope: rigid motions are far from all others.
     pub const TRANSLATION: f64 = 0.1;
     /// Slopes of the states that give the terms. The next terms of even order are smaller by the square of this, and 10,000 times as large for beams

@@ -6,7 +6,7 @@
 
 use super::linearized::Linearized;
 use super::own_nodes::{OwnNodes, each_element};
-use crate::tolerances::second_order::{LARGEST, LEAST, SLOPE, SOFT, TRANSLATION};
+use crate::tolerances::second_order::{LARGEST, LEAST, MECHANISM, SLOPE, SOFT, TRANSLATION};
 use base::math::rotation::{exp, rates};
 use base::math::{Vec3, stack};
 use mechanics::elements::Force;
@@ -33,8 +33,10 @@ pub fn second_order(
     let eigen = (0.5 * (&scaled + scaled.transpose())).symmetric_eigen();
     let mut order: Vec<usize> = (0..size).collect();
     order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
-    // The softest six are the rigid motions.
-    let order = order.get(6..).filter(|order| !order.is_empty())?;
+    // Six rigid motions, and what no element resists.
+    let least = MECHANISM * eigen.eigenvalues.max();
+    let is_free = |at: usize| at < 6 || eigen.eigenvalues[order[at]] <= least;
+    let order = &order[(0..size).find(|&at| !is_free(at))?..];
     let lambda: Vec<f64> = order.iter().map(|&k| eigen.eigenvalues[k]).collect();
     let vectors = DMatrix::from_fn(size, order.len(), |row, k| eigen.eigenvectors[(row, order[k])]);
     let vectors = factor.tr_solve_lower_triangular(&vectors)?;
