@@ -16,7 +16,7 @@ use std::path::Path;
 pub struct Record {
     /// Path as messages name it.
     pub path: String,
-    /// The points (time, value) as the file has them.
+    /// The points (time, value): values as the file has them, times in the unit of the deck where both are known.
     pub points: Vec<[f64; 2]>,
     /// The unit of the values, where the file names it.
     pub unit: Option<RecordUnit>,
@@ -35,7 +35,8 @@ impl Record {
 /// is to say about the files.
 pub fn load_records(deck: &Deck, folder: &Path) -> (Vec<Option<Record>>, Vec<Diagnostic>) {
     let mut problems = Vec::new();
-    let all = deck.amplitudes.0.iter().map(|(_, amplitude)| match load(amplitude, folder) {
+    let seconds = deck.units.as_ref().map(|units| units.value.scales()[2]);
+    let all = deck.amplitudes.0.iter().map(|(_, amplitude)| match load(amplitude, folder, seconds) {
         Ok(Some((record, warnings))) => {
             problems.extend(warnings);
             Some(record)
@@ -50,7 +51,11 @@ pub fn load_records(deck: &Deck, folder: &Path) -> (Vec<Option<Record>>, Vec<Dia
     (records, problems)
 }
 
-fn load(amplitude: &Amplitude, folder: &Path) -> Result<Option<(Record, Vec<Diagnostic>)>, Vec<Diagnostic>> {
+fn load(
+    amplitude: &Amplitude,
+    folder: &Path,
+    time_unit: Option<f64>,
+) -> Result<Option<(Record, Vec<Diagnostic>)>, Vec<Diagnostic>> {
     let Some(file) = &amplitude.file else { return Ok(None) };
     let time_step = amplitude.time_step.as_ref();
     if let Some(step) = time_step.filter(|step| step.value <= 0.0) {
@@ -71,7 +76,7 @@ fn load(amplitude: &Amplitude, folder: &Path) -> Result<Option<(Record, Vec<Diag
         ColumnName::Number(number) => RecordColumn::Number(*number),
     };
     let columns = amplitude.columns.iter().flat_map(|columns| &columns.values).map(|at| column(&at.value)).collect();
-    let selection = RecordSelection { columns, time_step: time_step.map(|step| step.value), rows };
+    let selection = RecordSelection { columns, time_step: time_step.map(|step| step.value), rows, time_unit };
     let mut series = record::read(&path, &bytes, &selection).map_err(|found| at_file(found, &file.span))?;
     if let Some(at) = &amplitude.unit {
         series.unit = Some(given_unit(at, series.unit)?);

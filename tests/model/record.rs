@@ -5,7 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rdsolve::record::{MOST_FAULTS, MotionQuantity, RecordColumn, RecordSelection, RecordUnit, read};
 
 fn select(columns: &[RecordColumn], time_step: Option<f64>) -> RecordSelection {
-    RecordSelection { columns: columns.to_vec(), time_step, rows: None }
+    RecordSelection { columns: columns.to_vec(), time_step, rows: None, time_unit: None }
 }
 
 fn points(text: &str, selection: &RecordSelection) -> Vec<[f64; 2]> {
@@ -350,9 +350,48 @@ fn columns_name_their_units() {
     let below = "time,acceleration\ns,m/s\u{b2}\n0,1\n1,3\n";
     assert_eq!(unit(below, 2).unwrap().known, Some((MotionQuantity::Acceleration, 1.0)));
     assert_eq!(points(below, &select(&[], None)), [[0.0, 1.0], [1.0, 3.0]]);
+    let share = |name: &str| unit(&format!("t,{name}\n0,1\n1,3\n"), 2).unwrap().known;
+    assert_eq!(share("Acc (mg)"), Some((MotionQuantity::Acceleration, 9.80665e-3)));
+    assert_eq!(share("Acc [%g]"), Some((MotionQuantity::Acceleration, 9.80665e-2)));
+    // Blanks between columns, and between a name and its unit.
+    let blanks = "Time (s)  Acc (cm/s2)  Vel (cm/s)\n0.0 1.0 2.0\n0.1 3.0 4.0\n";
+    assert_eq!(unit(blanks, 2), Some(RecordUnit::new("cm/s2")));
+    assert_eq!(points(blanks, &select(&[name("Time (s)"), name("Vel (cm/s)")], None)), [[0.0, 2.0], [0.1, 4.0]]);
     // A name alone is no unit, nor is a word in brackets that is none.
     assert_eq!(unit("t,g\n0,1\n1,3\n", 2), None);
     assert_eq!(unit("t,a (raw)\n0,1\n1,3\n", 2), None);
+}
+
+/// Times are converted to the unit that is asked for if the file names its own: headers of data bases count in seconds.
+#[test]
+fn times_are_in_the_unit_that_is_asked_for() {
+    let peer = "A\nB\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 2, DT= .01 SEC\n1 2\n";
+    let csmip = "  2 points of accel data equally spaced at .010 sec, in cm/sec2\n1 2\n";
+    for (text, in_seconds, in_milliseconds) in [
+        (peer, 0.01, 10.0),
+        (csmip, 0.01, 10.0),
+        ("time [ms],acc [g]\n0,1\n10,2\n", 0.01, 10.0),
+        ("Time (s);acc\n0;1\n0.01;2\n", 0.01, 10.0),
+        ("time,acc\nmsec,g\n0,1\n10,2\n", 0.01, 10.0),
+        // Without a unit of the file, numbers stay.
+        ("t,a\n0,1\n10,2\n", 10.0, 10.0),
+    ] {
+        for (unit, wanted) in [(1.0, in_seconds), (1e-3, in_milliseconds)] {
+            let asked = RecordSelection { time_unit: Some(unit), ..select(&[], None) };
+            assert_eq!(points(text, &asked), [[0.0, 1.0], [wanted, 2.0]], "{text}");
+        }
+    }
+}
+
+/// The header of CSMIP names the unit in several ways.
+#[test]
+fn headers_of_csmip_name_their_unit() {
+    for unit in ["in cm/sec2", "(UNITS: CM/SEC/SEC)", "(units: cm/sec2).", "approx 5 secs, units=cm/sec2(04),Format=(8F10.3)"] {
+        let text = format!("  3 POINTS OF ACCEL DATA EQUALLY SPACED AT   .020 SEC. {unit}\n  1.0 2.0 3.0\n");
+        let found = read("r", text.as_bytes(), &select(&[], None)).unwrap();
+        assert_eq!(found.points, [[0.0, 1.0], [0.02, 2.0], [0.04, 3.0]], "{unit}");
+        assert_eq!(found.unit.unwrap().known, Some((MotionQuantity::Acceleration, 0.01)), "{unit}");
+    }
 }
 
 /// Files of other data bases are named, with the way round.

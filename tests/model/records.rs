@@ -294,7 +294,19 @@ fn units_of_records_are_compared_with_the_deck() {
         )
     };
     let (si, mm) = ("units = \"SI\"\n", "units = \"mm-t-s\"\n");
-    let cases: [(&str, &str, &str, &str, Option<&str>); 19] = [
+    let bare = |peak: f64| (0..=400).map(|k| format!("{:.6},{:.6}\n", 0.005 * k as f64, peak * pulse(k))).collect::<String>();
+    // The peak of the pulse is 0.585.
+    let [weak, strong] = [bare(1.0), bare(100.0)];
+    let scaled = SHAKEN.replace("\"quake\" }", "\"quake\", scale = 9.81 }");
+    let cases: [(&str, &str, &str, &str, Option<&str>); 27] = [
+        (si, &scaled, "scale = 9.81", &g, Some("the scale 9.81 does so once more")),
+        (si, &scaled, "unit = \"g\"", &g, Some("its unit converts it to the units SI")),
+        (si, &scaled, "unit = \"g\"\nscale = 1.5", &g, Some("its unit converts it to the units SI")),
+        (si, SHAKEN, "unit = \"g\"\nscale = 1.5", &g, None),
+        (si, SHAKEN, "", &weak, Some("`unit = \"g\"`")),
+        (si, SHAKEN, "", &strong, Some("names no unit")),
+        (si, SHAKEN, "", &bare(5.0), None),
+        (si, SHAKEN, "unit = \"m/s2\"", &weak, None),
         ("", SHAKEN, "", &g, Some("is in G, and its numbers are taken as they are")),
         ("", SHAKEN, "scale = 1.0", &g, None),
         (si, SHAKEN, "", &g, Some("`scale = 9.807`")),

@@ -10,6 +10,7 @@ pub mod overlaps;
 pub mod proportions;
 pub mod record_units;
 pub mod scaled_loads;
+pub mod shaking;
 pub mod slivers;
 pub mod ties;
 pub mod units;

@@ -16,12 +16,16 @@ const SCALING: f64 = 50.0;
 const WEAK: f64 = 0.5;
 
 /// A use of a record as a motion in the deck.
-struct Use<'d> {
+pub struct Use<'d> {
     amplitude: &'d Maybe<String>,
-    quantity: MotionQuantity,
-    scale: Option<f64>,
-    what: &'static str,
-    place: &'d Span,
+    /// The quantity that the amplitude gives.
+    pub quantity: MotionQuantity,
+    /// The factor on the amplitude, where the deck has one.
+    pub scale: Option<f64>,
+    /// The moved thing, for messages.
+    pub what: &'static str,
+    /// The place of the use in the deck.
+    pub place: &'d Span,
 }
 
 /// Warns of records used as another quantity than their own, and of records in other units than the deck without a conversion.
@@ -37,7 +41,9 @@ pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut 
         let Some(name) = used.amplitude else { continue };
         let Some(index) = deck.amplitudes.position(name) else { continue };
         let words = &deck.amplitudes.0[index].1;
-        let Some(unit) = records.get(index).and_then(Option::as_ref).and_then(|record| record.unit.as_ref()) else {
+        let Some(record) = records.get(index).and_then(Option::as_ref) else { continue };
+        let Some(unit) = &record.unit else {
+            super::shaking::check_bare(deck, &used, (words, record), report);
             continue;
         };
         let file = words.file.as_ref().map_or("", |file| file.value.as_str());
@@ -57,7 +63,11 @@ pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut 
             report.error_with::<()>(place, message, "give `units` at the top, such as `units = \"SI\"`");
             continue;
         }
-        if let Some(factor) = records[index].as_ref().and_then(|record| conversion(deck, index, record)) {
+        let converted = conversion(deck, index, record);
+        if super::shaking::is_converted_twice(deck, &used, (words, unit, converted.is_some()), report) {
+            continue;
+        }
+        if let Some(factor) = converted {
             if words.unit.is_none() {
                 note_conversion(deck, &used, (file, unit), factor, report);
             }
@@ -140,21 +150,21 @@ fn check_factor(deck: &Deck, used: &Use, (file, unit): (&str, &RecordUnit), fact
             let factor_is =
                 factor.map_or("no `scale` converts it".to_owned(), |factor| format!("the scale is {}", short(factor)));
             let given = factor.unwrap_or(1.0);
+            let hint = format!(
+                "in the units {label} the whole record is `scale = {}`; with `unit = \"{}\"` in the amplitude the scale is a factor on the \
+                 whole record",
+                short(right),
+                unit.name.to_lowercase()
+            );
             let slack = if factor.is_some() { SCALING } else { 1.001 };
             if !(right / slack..=right * slack).contains(&given) && given != 0.0 {
                 let message = format!("the record `{file}` is in {}, and {factor_is}", unit.name);
-                report.warn(used.place, message, format!("in the units {label} that is `scale = {}`", short(right)));
+                report.warn(used.place, message, hint);
             } else if given < WEAK * right && given != 0.0 {
                 let message = format!(
                     "the record `{file}` is in {}, and {factor_is}: it acts at {} of its strength",
                     unit.name,
                     to_digits(given / right, 3)
-                );
-                let hint = format!(
-                    "in the units {label} the whole record is `scale = {}`; with `unit = \"{}\"` in the amplitude the scale is a factor \
-                     on the whole record",
-                    short(right),
-                    unit.name.to_lowercase()
                 );
                 report.warn(used.place, message, hint);
             }

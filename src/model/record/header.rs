@@ -15,7 +15,7 @@ use base::text_file::{Fault, Text, TextLine};
 pub struct Header {
     /// The number of values; `None` where the header does not say it.
     pub count: Option<usize>,
-    /// The time between two values.
+    /// The time between two values, in seconds.
     pub step: f64,
     /// The unit, where the header names one.
     pub unit: Option<RecordUnit>,
@@ -192,8 +192,11 @@ fn csmip(text: &Text, line: TextLine, words: &str) -> Result<Header, Fault> {
             "this line says how many accelerations follow and how far apart they are, and one of the two is no number";
         return Err(text.fault(message, line.number));
     };
-    let unit = after.split_once(" IN ").and_then(|(_, unit)| unit.split_whitespace().next());
-    let unit = unit.map(|unit| RecordUnit::new(&unit.trim_matches(['.', ',', ';', '(', ')']).to_ascii_lowercase()));
+    // As `in cm/sec2`, `(UNITS: CM/SEC/SEC)` or `units=cm/sec2(04)`.
+    let unit = [" IN ", "UNITS:", "UNITS="].iter().find_map(|before| after.split_once(before));
+    let is_around = |c: char| c.is_whitespace() || [',', ';', '(', ')'].contains(&c);
+    let unit = unit.and_then(|(_, unit)| unit.split(is_around).find(|part| !part.is_empty()));
+    let unit = unit.map(|unit| RecordUnit::new(&unit.trim_end_matches('.').to_ascii_lowercase()));
     Ok(Header {
         count: Some(count),
         step,

@@ -35,12 +35,14 @@ pub struct RecordSelection {
     pub time_step: Option<f64>,
     /// Whether values follow one another along the lines; `None` where the header of the file says it.
     pub rows: Option<bool>,
+    /// The unit of the times wanted, in seconds; `None` for times as the file has them.
+    pub time_unit: Option<f64>,
 }
 
 /// A record as its file has it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimeSeries {
-    /// The points (time, value).
+    /// The points (time, value), times in the unit of the selection where the file names its own.
     pub points: Vec<[f64; 2]>,
     /// The unit of the values, where the header names one.
     pub unit: Option<RecordUnit>,
@@ -75,7 +77,8 @@ fn read_text(path: &str, bytes: &[u8], selection: &RecordSelection) -> Result<Ti
         let last = header.as_ref().map_or(0, |header| header.last_line);
         return read_columns(text, last, selection, header.and_then(|header| header.unit));
     }
-    let Some(step) = header.as_ref().map(|header| header.step).or(selection.time_step) else {
+    let in_header = header.as_ref().map(|header| header.step / selection.time_unit.unwrap_or(1.0));
+    let Some(step) = in_header.or(selection.time_step) else {
         let message = "the file does not say how far apart its values are: `rows = true` needs `time_step` beside it";
         return Err(vec![text.fault(message, 1)]);
     };
@@ -120,9 +123,12 @@ fn read_columns(
 ) -> Result<TimeSeries, Vec<Fault>> {
     text.skip_to(last);
     let mut reader =
-        Reader { text, separator: None, faults: Vec::new(), columns: 0, last, blank: 0, jumps: None, unit: None };
-    let points = reader.points(selection);
+        Reader { text, separator: None, faults: Vec::new(), columns: 0, last, blank: 0, jumps: None, unit: None, seconds: None };
+    let mut points = reader.points(selection);
     if reader.faults.is_empty() {
+        if let Some((seconds, wanted)) = reader.seconds.zip(selection.time_unit).filter(|(own, wanted)| own != wanted) {
+            points.iter_mut().for_each(|[time, _]| *time *= seconds / wanted);
+        }
         let sequence = reader.jumps.filter(Jumps::is_sequence).map(|_| reader.columns);
         return Ok(TimeSeries { points, unit: unit.or(reader.unit), offset: None, sequence });
     }
@@ -158,6 +164,8 @@ struct Reader<'t> {
     jumps: Option<Jumps>,
     /// The unit that the name of the value's column, or the line below the names, gives it.
     unit: Option<RecordUnit>,
+    /// The unit of the column of times, in seconds, where it is named likewise.
+    seconds: Option<f64>,
 }
 
 /// The places of the wanted columns in a line, from 0.
@@ -172,7 +180,9 @@ impl<'t> Reader<'t> {
         let count = self.split(line).len();
         if !names.is_empty() && names.len() != count {
             let message = format!("the line of names has {} columns, that of numbers {count}", names.len());
-            self.faults.push(self.text.fault(message, line.number));
+            let fault = self.text.fault(message, line.number);
+            let hint = "give each column one name, or none; `rows = true` with `time_step` reads all values along the lines";
+            self.faults.push(Box::new(fault.hint(hint)));
             return Vec::new();
         }
         self.columns = count;
@@ -183,8 +193,12 @@ impl<'t> Reader<'t> {
                 return Vec::new();
             }
         };
-        let in_name = names.get(places.value).filter(|name| name.contains(['(', '[']));
-        self.unit = units.get(places.value).or(in_name).and_then(|name| unit_in(name));
+        let unit_of = |place: usize| {
+            let in_name = names.get(place).filter(|name| name.contains(['(', '[']));
+            units.get(place).or(in_name).and_then(|name| inner_name(name))
+        };
+        self.unit = unit_of(places.value).map(RecordUnit::new).filter(|unit| unit.known.is_some());
+        self.seconds = places.time.and_then(unit_of).and_then(unit::seconds_of);
         let may_be_sequence = selection.rows.is_none() && names.is_empty() && count > 2 && places.time.is_none();
         self.jumps = may_be_sequence.then(Jumps::default);
         let mut points: Vec<[f64; 2]> = Vec::with_capacity(self.text.bytes.len() / (line.bytes.len() + 1) + 1);
@@ -220,7 +234,10 @@ impl<'t> Reader<'t> {
         let texts = |words: &[Word]| -> Vec<String> {
             words.iter().map(|word| word.text().trim_matches(['"', '\'', ' ']).to_owned()).collect()
         };
-        let names = texts(&words);
+        let mut names = texts(&words);
+        if self.separator.is_none() {
+            join_units(&mut names);
+        }
         let (mut next, mut units) = (self.next_line(), Vec::new());
         if let Some(line) = next
             && self.split(line).iter().all(is_name)
@@ -349,10 +366,19 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// The unit that a name ends with, such as "Acc (g)" or "a [m/s^2]", or that it is.
-fn unit_in(name: &str) -> Option<RecordUnit> {
-    let inner = name.rsplit(['(', '[']).next()?.trim_matches([')', ']', ' ']);
-    Some(RecordUnit::new(inner)).filter(|unit| unit.known.is_some())
+/// What a name ends with in brackets, such as "Acc (g)" or "a [m/s^2]", or the name itself.
+fn inner_name(name: &str) -> Option<&str> {
+    Some(name.rsplit(['(', '[']).next()?.trim_matches([')', ']', ' ']))
+}
+
+/// Joins a unit in brackets to the name before it, where blanks separate columns.
+fn join_units(names: &mut Vec<String>) {
+    for place in (1..names.len()).rev() {
+        if names[place].starts_with(['(', '[']) {
+            let unit = names.remove(place);
+            names[place - 1] += &format!(" {unit}");
+        }
+    }
 }
 
 /// The separator of the columns of a line; `None` for blanks.

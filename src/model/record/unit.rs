@@ -50,10 +50,23 @@ impl RecordUnit {
     }
 }
 
+/// The seconds of a unit of time, as the head of a column names it.
+pub fn seconds_of(name: &str) -> Option<f64> {
+    match name.to_ascii_uppercase().as_str() {
+        "S" | "SEC" | "SECS" | "SECOND" | "SECONDS" => Some(1.0),
+        "MS" | "MSEC" | "MILLISECONDS" => Some(1e-3),
+        "US" | "\u{b5}S" | "\u{3bc}S" | "MICROSECONDS" => Some(1e-6),
+        "MIN" | "MINUTES" => Some(60.0),
+        _ => None,
+    }
+}
+
 fn known(name: &str) -> Option<(MotionQuantity, f64)> {
     let name = &name.replace('²', "2");
     match name.as_str() {
         "G" | "G'S" | "GS" => return Some((MotionQuantity::Acceleration, G)),
+        "MG" => return Some((MotionQuantity::Acceleration, 1e-3 * G)),
+        "%G" => return Some((MotionQuantity::Acceleration, 0.01 * G)),
         "GAL" | "GALS" => return Some((MotionQuantity::Acceleration, 0.01)),
         _ => {}
     }
