@@ -91,6 +91,7 @@ fn a_sweep_is_its_runs() {
         "half",
         "kinetic",
         "nothing",
+        "warnings",
         "reason",
     ];
     assert_eq!(summary[0], head);
@@ -454,6 +455,30 @@ fn failures_are_listed_and_run_again() {
     let output = rdsolve(folder, &["sweep", "s.toml"]);
     assert_eq!(output.status.code(), Some(5), "{}", text(&output.stderr));
     assert!(rows(folder, "s.out/summary.csv")[1][4].parse::<f64>().is_ok());
+}
+
+/// Cases that succeed with warnings are counted. A warning that differs in its numbers alone is reported once with its cases, and each case
+/// has its own in the summary, whether its folder is kept or not.
+#[test]
+fn warnings_of_cases_are_listed() {
+    let sweep = "deck = \"deck.toml\"\n[vary]\n\"analysis.time_step\" = [0.001, 0.02, 0.03]\n";
+    let folder = files(sweep);
+    let folder = folder.path();
+    let mut summaries = Vec::new();
+    for (keep, out) in [("", "all"), ("keep = \"summary\"\n", "summary")] {
+        fs::write(folder.join("s.toml"), format!("{keep}{sweep}")).unwrap();
+        let output = rdsolve(folder, &["sweep", "s.toml", "-o", out]);
+        let (said, told) = (text(&output.stderr), text(&output.stdout));
+        assert!(output.status.success() && told.starts_with("3 cases: 3 done, warnings in 2; "), "{told}{said}");
+        assert!(said.lines().count() == 1 && said.starts_with("warning: cases 2, 3: numerical dissipation: "), "{said}");
+        assert!(text(&rdsolve(folder, &["sweep", "s.toml", "-o", out, "--quiet"]).stderr).is_empty());
+        let summary = rows(folder, &format!("{out}/summary.csv"));
+        let place = summary[0].iter().position(|column| column == "warnings").unwrap();
+        assert_eq!(summary[1][place], "");
+        assert!(summary[2][place].starts_with("numerical dissipation: ") && summary[2][place] != summary[3][place]);
+        summaries.push(summary);
+    }
+    assert_eq!(summaries[0], summaries[1]);
 }
 
 /// Cases from a table and from samples.

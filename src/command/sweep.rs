@@ -14,7 +14,6 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use results::result_json::Status;
 use results::{SharedLock, replace};
-use std::collections::HashMap;
 use std::fs;
 use std::io::{self, IsTerminal};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -23,7 +22,8 @@ use std::str::FromStr;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex};
-use sweep::case_state::CaseState;
+use sweep::alike::alike;
+use sweep::case_state::{CaseOutcome, CaseState};
 use sweep::cases::Cases;
 use sweep::file::{self, Collected, SweepFile};
 use sweep::folder::{FAILURE, SweepFolder};
@@ -117,7 +117,7 @@ pub fn sweep(args: &SweepArgs) -> Result<(), Exit> {
     if !args.collect {
         sweep.run(&chosen, args.case == Some(Choice::Failed), jobs)?;
     }
-    let states = folder.write_summary(&cases).map_err(|error| cannot_write(&folder.path, &error))?;
+    let outcomes = folder.write_summary(&cases).map_err(|error| cannot_write(&folder.path, &error))?;
     for one in folder.empty_columns().map_err(|error| cannot_write(&folder.path, &error))? {
         let Collected { name, at, quantity, .. } = one;
         say(&format!(
@@ -125,10 +125,10 @@ pub fn sweep(args: &SweepArgs) -> Result<(), Exit> {
              in `[output]` of the deck"
         ));
     }
-    for (case, torn) in folder.torn_tables(&states).map_err(|error| cannot_write(&folder.path, &error))? {
+    for (case, torn) in folder.torn_tables(&outcomes).map_err(|error| cannot_write(&folder.path, &error))? {
         say(&format!("warning: case {case}: {torn}"));
     }
-    sweep.conclude(&chosen, &states)
+    sweep.conclude(&chosen, &outcomes)
 }
 
 fn cannot_write(path: &Path, error: &io::Error) -> Exit {
@@ -299,43 +299,27 @@ impl Sweep<'_> {
         bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
     }
 
-    /// Reports the states of the chosen cases.
-    fn conclude(&self, chosen: &[usize], states: &[CaseState]) -> Result<(), Exit> {
-        /// The number of reported reasons; the summary has all of them.
-        const TOLD: usize = 20;
-        /// The number of cases that are named with a reason.
-        const NAMED: usize = 5;
-        let of = |is: fn(&CaseState) -> bool| chosen.iter().filter(|&&case| is(&states[case])).count();
+    /// Reports the outcomes of the chosen cases.
+    fn conclude(&self, chosen: &[usize], outcomes: &[CaseOutcome]) -> Result<(), Exit> {
+        let of = |is: fn(&CaseState) -> bool| chosen.iter().filter(|&&case| is(&outcomes[case].state)).count();
         let failed = of(|state| matches!(state, CaseState::Failed(_)));
         let missed = of(|state| matches!(state, CaseState::Missed(_)));
         let pending = of(|state| matches!(state, CaseState::Pending));
         let done = chosen.len() - failed - missed - pending;
         // An error of the deck is that of all its cases.
-        let mut reasons: Vec<(&str, Vec<usize>)> = Vec::new();
-        let mut places = HashMap::new();
-        for &case in chosen.iter().filter(|&&case| matches!(states[case], CaseState::Failed(_))) {
-            let reason = states[case].reason();
-            let place = *places.entry(reason).or_insert(reasons.len());
-            if place == reasons.len() {
-                reasons.push((reason, Vec::new()));
-            }
-            reasons[place].1.push(case + 1);
-        }
-        for (reason, cases) in reasons.iter().take(TOLD) {
-            let first: Vec<String> = cases.iter().take(NAMED).map(usize::to_string).collect();
-            let more = if cases.len() > NAMED { format!(" and {} more", cases.len() - NAMED) } else { String::new() };
-            let word = if cases.len() > 1 { "cases" } else { "case" };
-            complain(&format!("{word} {}{more}: {reason}", first.join(", ")));
-        }
-        if reasons.len() > TOLD {
-            say(&format!("… and {} more reasons: see summary.csv", reasons.len() - TOLD));
-        }
+        let is_failed = |case: &&usize| matches!(outcomes[**case].state, CaseState::Failed(_));
+        tell("reasons", complain, chosen.iter().filter(is_failed).map(|&case| (case, outcomes[case].state.reason())));
         if !self.quiet {
+            let stands = |case: &&usize| matches!(outcomes[**case].state, CaseState::Done | CaseState::Missed(_));
+            let of_case = |&case: &usize| outcomes[case].warnings.iter().map(move |warning| (case, warning.as_str()));
+            tell("warnings", warn, chosen.iter().filter(stands).flat_map(of_case));
+            let warned = chosen.iter().filter(stands).filter(|&&case| !outcomes[case].warnings.is_empty()).count();
             let parts = [(missed, "missed expected values"), (failed, "failed"), (pending, "are still to be run")];
             let parts = parts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!(", {count} {what}"));
             let summary = self.folder.path.join("summary.csv");
             let total = counted(chosen.len(), "case");
-            print(&format!("{total}: {done} done{}; {}\n", parts.collect::<String>(), summary.display()))?;
+            let warned = if warned > 0 { format!(", warnings in {warned}") } else { String::new() };
+            print(&format!("{total}: {done} done{}{warned}; {}\n", parts.collect::<String>(), summary.display()))?;
         }
         match () {
             () if self.stop.load(Ordering::Relaxed) => {
@@ -347,4 +331,27 @@ impl Sweep<'_> {
             () => Ok(()),
         }
     }
+}
+
+/// Reports texts of cases, alike ones once with their first cases.
+fn tell<'t>(what: &str, report: fn(&str), texts: impl Iterator<Item = (usize, &'t str)>) {
+    /// The number of reported texts; the summary has all of them.
+    const TOLD: usize = 20;
+    /// The number of cases that are named with a text.
+    const NAMED: usize = 5;
+    let all = alike(texts);
+    for one in all.iter().take(TOLD) {
+        let count = one.cases.len();
+        let first: Vec<String> = one.cases.iter().take(NAMED).map(|case| (case + 1).to_string()).collect();
+        let more = if count > NAMED { format!(" and {} more", count - NAMED) } else { String::new() };
+        let word = if count > 1 { "cases" } else { "case" };
+        report(&format!("{word} {}{more}: {}", first.join(", "), one.text));
+    }
+    if all.len() > TOLD {
+        say(&format!("… and {} more {what}: see summary.csv", all.len() - TOLD));
+    }
+}
+
+fn warn(text: &str) {
+    say(&format!("warning: {text}"));
 }

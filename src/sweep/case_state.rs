@@ -33,6 +33,27 @@ impl CaseState {
     }
 }
 
+/// What became of a case: its state, and the warnings of its run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CaseOutcome {
+    /// Its state.
+    pub state: CaseState,
+    /// The warnings about its deck and its results; none of a case without a result.
+    pub warnings: Vec<String>,
+}
+
+impl CaseOutcome {
+    /// The outcome of a case without a result.
+    pub fn without_result(state: CaseState) -> CaseOutcome {
+        CaseOutcome { state, warnings: Vec::new() }
+    }
+
+    /// The warnings in one line.
+    pub fn warnings_in_line(&self) -> String {
+        self.warnings.iter().map(|warning| one_line(warning)).collect::<Vec<_>>().join("; ")
+    }
+}
+
 /// The first lines of a reason as one.
 pub fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")

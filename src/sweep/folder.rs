@@ -3,7 +3,7 @@
 //! Any number of processes on any number of machines may fill one folder at once: a case belongs to the process that locks its folder, and
 //! is complete once its `result.json` exists. Files that all of them write are moved in whole, and are the same bytes whoever writes them.
 
-use super::case_state::{CaseState, one_line};
+use super::case_state::{CaseOutcome, CaseState, one_line};
 use super::cases::Cases;
 use super::collect::{collect, tables_of};
 use super::file::{Collected, KeptFolders, SweepFile};
@@ -64,7 +64,7 @@ impl SweepFolder {
     pub fn state(&self, case: usize) -> CaseState {
         match self.records.find(&self.names[case]) {
             Some(record) => record.state(),
-            None => found(&self.case(case), result_json::NAME),
+            None => found(&self.case(case), result_json::NAME).state,
         }
     }
 
@@ -77,15 +77,15 @@ impl SweepFolder {
         if self.keep == KeptFolders::All {
             return Ok(cases);
         }
-        let with_state = cases.into_iter().map(|case| {
-            let state = found(&case, result_json::UNMARKED);
-            (case, state)
+        let with_outcome = cases.into_iter().map(|case| {
+            let outcome = found(&case, result_json::UNMARKED);
+            (case, outcome)
         });
-        let (stay, go): (Vec<_>, Vec<_>) = with_state.partition(|(_, state)| self.keep.keeps(state));
+        let (stay, go): (Vec<_>, Vec<_>) = with_outcome.partition(|(_, outcome)| self.keep.keeps(&outcome.state));
         let mut records = Vec::new();
-        for (case, state) in &go {
+        for (case, outcome) in &go {
             let name = case.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            records.push((name, state, numbers(case, state, &self.collect)?));
+            records.push((name, outcome, numbers(case, &outcome.state, &self.collect)?));
         }
         if !records.is_empty() {
             self.records.add(&records)?;
@@ -106,22 +106,22 @@ impl SweepFolder {
         self.write("cases.csv", header.map(str::to_owned).collect(), cases.values.iter().enumerate().map(row))
     }
 
-    /// Writes `summary.csv` (the varied entries, the state and the collected numbers of each case) and its page. It includes the cases
+    /// Writes `summary.csv` (the varied entries, the state, the collected numbers and the warnings of each case) and its page. It includes the cases
     /// completed by other processes meanwhile: the last writer writes all complete cases.
     ///
     /// # Errors
     /// A table cannot be read, or the file cannot be written; the error names it.
-    pub fn write_summary(&self, cases: &Cases) -> io::Result<Vec<CaseState>> {
-        let mut states = self.write_what_stands(cases)?;
+    pub fn write_summary(&self, cases: &Cases) -> io::Result<Vec<CaseOutcome>> {
+        let mut outcomes = self.write_what_stands(cases)?;
         // Each round is for a case that has ended since the one before.
-        for _ in 0..states.len() {
-            let was_pending = |&case: &usize| states[case] == CaseState::Pending;
-            if !(0..states.len()).filter(was_pending).any(|case| self.state(case) != CaseState::Pending) {
+        for _ in 0..outcomes.len() {
+            let was_pending = |&case: &usize| outcomes[case].state == CaseState::Pending;
+            if !(0..outcomes.len()).filter(was_pending).any(|case| self.state(case) != CaseState::Pending) {
                 break;
             }
-            states = self.write_what_stands(cases)?;
+            outcomes = self.write_what_stands(cases)?;
         }
-        Ok(states)
+        Ok(outcomes)
     }
 
     /// The collected columns without any value in the finished cases.
@@ -149,45 +149,47 @@ impl SweepFolder {
     ///
     /// # Errors
     /// A folder of a case cannot be read.
-    pub fn torn_tables(&self, states: &[CaseState]) -> io::Result<Vec<(usize, String)>> {
+    pub fn torn_tables(&self, outcomes: &[CaseOutcome]) -> io::Result<Vec<(usize, String)>> {
         let of_case = |(case, _)| Ok(torn_tables(&self.case(case))?.into_iter().map(|torn| (case + 1, torn)).collect());
-        let standing = states.par_iter().enumerate().filter(|(_, state)| stands(state));
+        let standing = outcomes.par_iter().enumerate().filter(|(_, outcome)| stands(&outcome.state));
         Ok(standing.map(of_case).collect::<io::Result<Vec<Vec<_>>>>()?.concat())
     }
 
     /// Writes the summary of the cases that stand now.
-    fn write_what_stands(&self, cases: &Cases) -> io::Result<Vec<CaseState>> {
+    fn write_what_stands(&self, cases: &Cases) -> io::Result<Vec<CaseOutcome>> {
         let wanted = &self.collect;
         let header: Vec<String> = ["case".to_owned()]
             .into_iter()
             .chain(cases.keys.iter().cloned())
             .chain(["status".to_owned()])
             .chain(wanted.iter().map(|one| one.name.clone()))
-            .chain(["reason".to_owned()])
+            .chain(["warnings".to_owned(), "reason".to_owned()])
             .collect();
         let row = |(case, values): (usize, &Vec<String>)| {
-            let (state, numbers) = match self.records.find(&self.names[case]) {
-                Some(record) => (record.state(), record.numbers),
+            let (outcome, numbers) = match self.records.find(&self.names[case]) {
+                Some(record) => (record.outcome(), record.numbers),
                 None => {
-                    let state = self.state(case);
-                    let numbers = numbers(&self.case(case), &state, wanted)?;
-                    (state, numbers)
+                    let outcome = found(&self.case(case), result_json::NAME);
+                    let numbers = numbers(&self.case(case), &outcome.state, wanted)?;
+                    (outcome, numbers)
                 }
             };
-            let mut row = [vec![(case + 1).to_string()], values.clone(), vec![state.word().to_owned()]].concat();
+            let state = outcome.state.word().to_owned();
+            let mut row = [vec![(case + 1).to_string()], values.clone(), vec![state]].concat();
             row.extend(numbers);
-            row.push(state.reason().to_owned());
-            Ok((row, state))
+            row.push(outcome.warnings_in_line());
+            row.push(outcome.state.reason().to_owned());
+            Ok((row, outcome))
         };
         let all = cases.values.par_iter().enumerate().map(row).collect::<io::Result<Vec<_>>>()?;
-        let (rows, states): (Vec<Vec<String>>, Vec<CaseState>) = all.into_iter().unzip();
+        let (rows, outcomes): (Vec<Vec<String>>, Vec<CaseOutcome>) = all.into_iter().unzip();
         let has_folder = |name: &&String| self.keep == KeptFolders::All || self.path.join(name).exists();
         let folders: Vec<&str> =
             self.names.iter().map(|name| Some(name).filter(has_folder).map_or("", String::as_str)).collect();
         let page = page(&header, &rows, &folders, [cases.keys.len(), wanted.len()]);
         self.move_in("summary.html", page.as_bytes())?;
         self.write("summary.csv", header, rows.into_iter())?;
-        Ok(states)
+        Ok(outcomes)
     }
 
     /// Writes a file of comma separated values.
@@ -215,22 +217,24 @@ impl SweepFolder {
     }
 }
 
-/// The state of a case, from its folder and the name of its result.
-fn found(folder: &Path, result: &str) -> CaseState {
+/// The outcome of a case, from its folder and the name of its result.
+fn found(folder: &Path, result: &str) -> CaseOutcome {
     // A power cut may leave an empty one.
     if let Some(reason) = read_text(folder.join(FAILURE)).ok().filter(|reason| !reason.is_empty()) {
-        return CaseState::Failed(one_line(&reason));
+        return CaseOutcome::without_result(CaseState::Failed(one_line(&reason)));
     }
-    let Ok(bytes) = read_regular(folder.join(result)) else { return CaseState::Pending };
-    let Ok(result) = serde_json::from_slice::<Value>(&bytes) else { return CaseState::Pending };
+    let result = read_regular(folder.join(result)).ok().and_then(|bytes| serde_json::from_slice::<Value>(&bytes).ok());
+    let Some(result) = result else { return CaseOutcome::without_result(CaseState::Pending) };
     let reason = one_line(result["reason"].as_str().unwrap_or_default());
-    match result["status"].as_str() {
+    let state = match result["status"].as_str() {
         Some("done") => CaseState::Done,
         Some("expectation-missed") => CaseState::Missed(reason),
         // A case that a signal has stopped is run again.
         Some("stopped") | None => CaseState::Pending,
         Some(_) => CaseState::Failed(reason),
-    }
+    };
+    let warnings = result["warnings"].as_array().into_iter().flatten().filter_map(Value::as_str);
+    CaseOutcome { state, warnings: warnings.map(str::to_owned).collect() }
 }
 
 /// True for a case whose tables are complete.

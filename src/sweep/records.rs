@@ -3,7 +3,7 @@
 //! Each process appends to a separate file in the folder `records`, and reads the files of all: any number of processes, on any number of
 //! machines, may fill one sweep. A line without its end comes from a killed process and does not count.
 
-use super::case_state::{CaseState, one_line};
+use super::case_state::{CaseOutcome, CaseState, one_line};
 use super::file::Collected;
 use results::at;
 use serde::{Deserialize, Serialize};
@@ -30,6 +30,9 @@ pub struct CaseRecord {
     status: String,
     /// The reason of a failure or a miss, in one line.
     reason: String,
+    /// The warnings of its run.
+    #[serde(default)]
+    warnings: Vec<String>,
     /// The collected numbers as the summary has them, empty where a table has none.
     pub numbers: Vec<String>,
 }
@@ -42,6 +45,11 @@ impl CaseRecord {
             "failed" => CaseState::Failed(self.reason.clone()),
             _ => CaseState::Missed(self.reason.clone()),
         }
+    }
+
+    /// The state of the case, with its warnings.
+    pub fn outcome(&self) -> CaseOutcome {
+        CaseOutcome { state: self.state(), warnings: self.warnings.clone() }
     }
 }
 
@@ -76,19 +84,20 @@ impl Records {
         known.records.get(folder).filter(|record| record.collect == self.collect).cloned()
     }
 
-    /// Adds cases, each with its folder, its state and its numbers as the summary has them, and waits until they are safe on the disk.
+    /// Adds cases, each with its folder, its outcome and its numbers as the summary has them, and waits until they are safe on the disk.
     ///
     /// # Errors
     /// The file of this process cannot be written; the error names it.
-    pub fn add(&self, cases: &[(String, &CaseState, Vec<String>)]) -> io::Result<()> {
+    pub fn add(&self, cases: &[(String, &CaseOutcome, Vec<String>)]) -> io::Result<()> {
         let Ok(mut known) = self.known.lock() else { return Ok(()) };
         known.refresh(&self.dir);
         let mut lines = String::new();
-        for (folder, state, numbers) in cases {
+        for (folder, outcome, numbers) in cases {
             let run = known.records.get(folder).map_or(0, |before| before.run) + 1;
             let (folder, collect, numbers) = (folder.clone(), self.collect.clone(), numbers.clone());
-            let (status, reason) = (state.word().to_owned(), state.reason().to_owned());
-            let record = CaseRecord { folder, collect, run, status, reason, numbers };
+            let (status, reason) = (outcome.state.word().to_owned(), outcome.state.reason().to_owned());
+            let record =
+                CaseRecord { folder, collect, run, status, reason, warnings: outcome.warnings.clone(), numbers };
             lines += &serde_json::to_string(&record)?;
             lines.push('\n');
         }
@@ -170,11 +179,13 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let (one, other) = (Records::new(root.path(), &[]), Records::new(root.path(), &[]));
         assert_eq!(one.find("a"), None);
-        one.add(&[("a".into(), &CaseState::Failed("no\nforce".into()), vec![])]).unwrap();
+        let failed = CaseOutcome::without_result(CaseState::Failed("no\nforce".into()));
+        one.add(&[("a".into(), &failed, vec![])]).unwrap();
         assert_eq!(other.find("a").unwrap().state(), CaseState::Failed("no force".into()));
-        other.add(&[("a".into(), &CaseState::Done, vec!["1.5".into()])]).unwrap();
+        let warned = CaseOutcome { state: CaseState::Done, warnings: vec!["it slips".into()] };
+        other.add(&[("a".into(), &warned, vec!["1.5".into()])]).unwrap();
         let found = one.find("a").unwrap();
-        assert_eq!((found.state(), found.numbers), (CaseState::Done, vec!["1.5".to_owned()]));
+        assert_eq!((found.outcome(), found.numbers), (warned, vec!["1.5".to_owned()]));
         // A truncated line, and another list of collected numbers.
         fs::write(root.path().join(NAME).join("gone.1.jsonl"), "{\"folder\":\"b\"").unwrap();
         assert_eq!(one.find("b"), None);
