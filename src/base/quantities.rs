@@ -93,7 +93,7 @@ impl fmt::Display for Unit {
 }
 
 /// A system of units by the symbols of its quantities.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UnitSystem {
     /// The word of the deck.
     pub name: &'static str,
@@ -101,15 +101,17 @@ pub struct UnitSystem {
     pub base: [&'static str; 4],
     /// Stress and energy, which have names.
     pub named: [&'static str; 2],
+    /// Standard gravity.
+    pub gravity: f64,
 }
 
 /// All systems of units.
 pub const UNIT_SYSTEMS: [UnitSystem; 5] = [
-    UnitSystem { name: "SI", base: ["m", "kg", "s", "N"], named: ["Pa", "J"] },
-    UnitSystem { name: "m-kg-s", base: ["m", "kg", "s", "N"], named: ["Pa", "J"] },
-    UnitSystem { name: "mm-t-s", base: ["mm", "t", "s", "N"], named: ["MPa", "mJ"] },
-    UnitSystem { name: "mm-kg-s", base: ["mm", "kg", "s", "mN"], named: ["kPa", "µJ"] },
-    UnitSystem { name: "mm-kg-ms", base: ["mm", "kg", "ms", "kN"], named: ["GPa", "J"] },
+    UnitSystem { name: "SI", base: ["m", "kg", "s", "N"], named: ["Pa", "J"], gravity: 9.80665 },
+    UnitSystem { name: "m-kg-s", base: ["m", "kg", "s", "N"], named: ["Pa", "J"], gravity: 9.80665 },
+    UnitSystem { name: "mm-t-s", base: ["mm", "t", "s", "N"], named: ["MPa", "mJ"], gravity: 9806.65 },
+    UnitSystem { name: "mm-kg-s", base: ["mm", "kg", "s", "mN"], named: ["kPa", "µJ"], gravity: 9806.65 },
+    UnitSystem { name: "mm-kg-ms", base: ["mm", "kg", "ms", "kN"], named: ["GPa", "J"], gravity: 9.80665e-3 },
 ];
 
 impl UnitSystem {

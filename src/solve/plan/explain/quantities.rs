@@ -6,6 +6,7 @@ use crate::system::{CentrifugalLoad, Excitation, Side, System};
 use crate::tolerances::explained_quantities::ROUNDING;
 use base::math::Vec3;
 use base::names::{short, to_digits};
+use base::quantities::{Unit, UnitSystem};
 use mechanics::amplitude::Amplitude;
 use mechanics::state::Node;
 use model::{self, DIRECTIONS, History, Load, Model};
@@ -17,13 +18,14 @@ const LISTED: usize = 6;
 
 /// Adds lines about the mass, the applied loads and the given motions.
 pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
-    text.computed.extend(mass(model, system).map(|line| ("mass", line)));
+    let units = model.output.units.as_deref().and_then(UnitSystem::find);
+    text.computed.extend(mass(model, system, units).map(|line| ("mass", line)));
     let excitation = Excitation::new(model);
     let times = times(model);
-    text.computed.extend(loads(model, &excitation, &times).map(|line| ("loads", line)));
+    text.computed.extend(loads(model, &excitation, &times, units).map(|line| ("loads", line)));
     let turning = centrifugal(model, system, &excitation, &times);
     text.computed.extend(turning.into_iter().map(|line| ("centrifugal", line)));
-    let motions = motions(model, &excitation, &times);
+    let motions = motions(model, &excitation, &times, units);
     let more = motions.len().saturating_sub(LISTED);
     text.computed.extend(motions.into_iter().take(LISTED).map(|line| ("motion", line)));
     if more > 0 {
@@ -31,17 +33,35 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
     }
 }
 
-/// "8.1 with its center at (0, 0, 1.5); weight 79.5".
-fn mass(model: &Model, system: &System) -> Option<String> {
+/// The symbol of a unit behind a number, if the deck has units.
+fn symbol(unit: Unit, units: Option<&UnitSystem>) -> String {
+    units.map_or(String::new(), |units| format!(" {}", unit.text(Some(units))))
+}
+
+/// "8.1 kg with its center at (0, 0, 1.5) m; weight 79.5 N under gravity 9.81 m/s² along -z".
+fn mass(model: &Model, system: &System, units: Option<&UnitSystem>) -> Option<String> {
     let (mass, center) = mass_and_center(system, &model.nodes)?;
     let size = model.nodes.iter().map(|node| node.x.amax()).fold(0.0, f64::max);
     let at: Vec<String> = center.iter().map(|x| short(if x.abs() < ROUNDING * size { 0.0 } else { *x })).collect();
-    let mut line = format!("{} with its center at ({})", to_digits(mass, 6), at.join(", "));
+    let [of_mass, of_length] = [Unit::Mass, Unit::Length].map(|unit| symbol(unit, units));
+    let mut line = format!("{}{of_mass} with its center at ({}){of_length}", to_digits(mass, 6), at.join(", "));
     let gravity = model.loading.gravity.norm();
     if gravity > 0.0 {
-        line += &format!("; weight {} under gravity {}", to_digits(mass * gravity, 6), short(gravity));
+        let [of_force, of_field] = [Unit::Force, Unit::Acceleration].map(|unit| symbol(unit, units));
+        let [weight, field] = [to_digits(mass * gravity, 6), short(gravity)];
+        let way = along(&(model.loading.gravity / gravity));
+        line += &format!("; weight {weight}{of_force} under gravity {field}{of_field} along {way}");
     }
     Some(line)
+}
+
+/// A direction by its axis, "-z", or by its components.
+fn along(direction: &Vec3) -> String {
+    let axis = (0..3).find(|&i| direction[i].abs() > 1.0 - ROUNDING);
+    match axis {
+        Some(i) => format!("{}{}", if direction[i] < 0.0 { "-" } else { "" }, ["x", "y", "z"][i]),
+        None => format!("({}, {}, {})", short(direction.x), short(direction.y), short(direction.z)),
+    }
 }
 
 /// The times of the run at which loads and motions are looked at, ascending. Modes have one.
@@ -60,7 +80,7 @@ fn times(model: &Model) -> Vec<f64> {
 
 /// The sums of forces and moments on nodes and of pressures on faces, by direction: "Fx 0 to 1200, Fz -300". Weight, motors and pretension are not
 /// among them.
-fn loads(model: &Model, excitation: &Excitation, times: &[f64]) -> Option<String> {
+fn loads(model: &Model, excitation: &Excitation, times: &[f64], units: Option<&UnitSystem>) -> Option<String> {
     let mut sums: Vec<(Option<usize>, [f64; 6])> = Vec::new();
     let mut add = |amplitude: Option<usize>, force: Vec3, moment: Vec3| {
         let place = sums.iter().position(|(of, _)| *of == amplitude).unwrap_or_else(|| {
@@ -100,9 +120,11 @@ fn loads(model: &Model, excitation: &Excitation, times: &[f64]) -> Option<String
     let words = ["Fx", "Fy", "Fz", "Mx", "My", "Mz"];
     let largest = |of: std::ops::Range<usize>| ranges[of].iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
     let sizes = [largest(0..3), largest(3..6)];
+    let symbols = [Unit::Force, Unit::Moment].map(|unit| symbol(unit, units));
     let line = ranges.iter().enumerate().filter_map(|(i, [least, most])| {
         let size = sizes[i / 3];
-        (least.abs().max(most.abs()) > ROUNDING * size).then(|| format!("{} {}", words[i], range(*least, *most, size)))
+        let is_seen = least.abs().max(most.abs()) > ROUNDING * size;
+        is_seen.then(|| format!("{} {}{}", words[i], range(*least, *most, size), symbols[i / 3]))
     });
     let line: Vec<String> = line.collect();
     Some(if line.is_empty() { "sum to zero".to_owned() } else { line.join(", ") })
@@ -132,32 +154,37 @@ fn range(least: f64, most: f64, size: f64) -> String {
 }
 
 /// A line for each amplitude of the ground or of supports: the largest value, and what its table is.
-fn motions(model: &Model, excitation: &Excitation, times: &[f64]) -> Vec<String> {
+fn motions(model: &Model, excitation: &Excitation, times: &[f64], units: Option<&UnitSystem>) -> Vec<String> {
     let ground = model.loading.base_accelerations.iter().flat_map(|base| {
         let along = (0..3).filter(|&i| base.direction[i] != 0.0);
-        along.map(|i| (format!("ground {}", DIRECTIONS[i]), "acceleration", base.amplitude, base.direction[i]))
+        let unit = Some(Unit::Acceleration);
+        along.map(move |i| {
+            (format!("ground {}", DIRECTIONS[i]), ("acceleration", unit), base.amplitude, base.direction[i])
+        })
     });
     let supports = model.constraints.restraints.iter().filter_map(|restraint| {
         let motion = restraint.motion.as_ref()?;
-        let what = match motion.history {
-            History::Displacement => "displacement",
-            History::Velocity => "velocity",
-            History::Acceleration => "acceleration",
+        let (what, [linear, angular]) = match motion.history {
+            History::Displacement => ("displacement", [Unit::Length, Unit::Radian]),
+            History::Velocity => ("velocity", [Unit::Velocity, Unit::AngularVelocity]),
+            History::Acceleration => ("acceleration", [Unit::Acceleration, Unit::AngularAcceleration]),
         };
         let node = &model.nodes[restraint.node];
         let heats = model.parts.iter().filter_map(|part| part.heat());
         let mut numbers = heats.flat_map(|heat| heat.numbers.into_iter().enumerate().map(|at| (at, heat.length)));
         if let Some(((of, _), length)) = numbers.find(|((_, number), _)| *number == Some(restraint.node)) {
             let what = if of == 0 { "strain without stress" } else { "curvature without stress" };
-            return Some((format!("`{}`", node.label), what, motion.amplitude, motion.scale / length));
+            return Some((format!("`{}`", node.label), (what, None), motion.amplitude, motion.scale / length));
         }
         let place = match node.is_number {
             true => format!("`{}`", node.label),
             false => format!("`{}` {}", node.label, DIRECTIONS[restraint.dof]),
         };
-        Some((place, what, motion.amplitude, motion.scale))
+        // A number is the coordinate of a joint, a length or an angle.
+        let unit = (!node.is_number).then_some(if restraint.dof < 3 { linear } else { angular });
+        Some((place, (what, unit), motion.amplitude, motion.scale))
     });
-    let line = |(place, what, amplitude, scale): (String, &str, usize, f64)| {
+    let line = |(place, (what, unit), amplitude, scale): (String, (&str, Option<Unit>), usize, f64)| {
         // A jump at the end acts in the next stage.
         let side = |time: f64| if time >= model.analysis.end_time { Side::Before } else { Side::After };
         let value = |time: f64| scale * excitation.factor_of(Some(amplitude), time, side(time));
@@ -168,7 +195,11 @@ fn motions(model: &Model, excitation: &Excitation, times: &[f64]) -> Vec<String>
             return None;
         }
         let table = model.loading.amplitudes[amplitude].points().map_or(String::new(), table);
-        Some(format!("{place}: {what} up to {} at t = {}{table}", short(most), short(at)))
+        let gravities = units
+            .filter(|_| unit == Some(Unit::Acceleration))
+            .map_or(String::new(), |units| format!(", {} g,", to_digits(most.abs() / units.gravity, 3)));
+        let unit = unit.map_or(String::new(), |unit| symbol(unit, units)) + &gravities;
+        Some(format!("{place}: {what} up to {}{unit} at t = {}{table}", short(most), short(at)))
     };
     ground.chain(supports).filter_map(line).collect()
 }
