@@ -8,8 +8,8 @@ use crate::tied_nodes::TiedNodes;
 use crate::timeline::Timeline;
 use crate::{
     base_motion, bodies, contacts, distributing, equations, harmonics, joints, links, loads, material_cards, mesh_text,
-    nodal_axes, output, parts, pretension, property_cards, single_loads, spread_loads, stage_text, supports,
-    surface_ties, temperatures, ties,
+    model_changes, nodal_axes, output, parts, pretension, property_cards, single_loads, spread_loads, stage_text,
+    supports, surface_ties, temperatures, ties,
 };
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -56,6 +56,7 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
     build.groups_of_file();
     build.deck.add(DeckTable::new("mesh", 0).text("file", mesh_file));
     stage_text::stages(&mut build);
+    model_changes::find(&mut build);
     refuse_modes_alone(&mut build);
     parts::parts(&mut build);
     bodies::bodies(&mut build);

@@ -1,6 +1,6 @@
 //! Contact pairs and their laws: `*CONTACT PAIR`, `*SURFACE INTERACTION`, `*FRICTION`, `*SURFACE BEHAVIOR`.
 
-use crate::contact_content::{ContactCard, InteractionCard};
+use crate::contact_content::{ContactCard, InteractionCard, ModelChange};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::scopes::NamedTarget;
@@ -58,16 +58,14 @@ pub fn pair(im: &mut Importer, block: &KeywordBlock) {
     if keyword.has("TIED") {
         return im.refuse(line, "contact opens again in rdsolve: give *TIE for surfaces that stay together");
     }
-    if im.steps.is_open && im.steps.list.len() > 1 {
-        return im.refuse(line, "contact acts from the start of the run here: put *CONTACT PAIR before the first step");
-    }
     if keyword.has("ADJUST") {
         im.change(line, "nodes keep their places: ADJUST moves none");
     }
     if keyword.has("SMALLSLIDING") {
         im.change(line, "surfaces slide without limit; SMALL SLIDING keeps the planes of contact of the start");
     }
-    let Some(interaction) = keyword.value("INTERACTION").map(str::to_lowercase) else {
+    let is_deleted = keyword.value("OP").is_some_and(|op| op.eq_ignore_ascii_case("DELETE"));
+    let Some(interaction) = keyword.value("INTERACTION").or(is_deleted.then_some("")).map(str::to_lowercase) else {
         return im.refuse(line, "*CONTACT PAIR needs INTERACTION=");
     };
     let of_surfaces = keyword.value("TYPE").is_some_and(|kind| kind.to_ascii_uppercase().starts_with("SURFACE"));
@@ -81,11 +79,17 @@ pub fn pair(im: &mut Importer, block: &KeywordBlock) {
             [slave, master] => [slave.clone(), master.clone()],
             _ => [targets[0].clone(), targets[0].clone()],
         };
-        im.constraints.contacts.pairs.push(ContactCard {
-            line: data.line,
-            interaction: interaction.clone(),
-            surfaces,
-            is_thin,
-        });
+        let change = |is_added| ModelChange::of_pair(data.line, surfaces.to_vec(), is_added);
+        if is_deleted {
+            im.steps.at_hand().changes.push(change(false));
+            continue;
+        }
+        if im.steps.list.len() > 1 {
+            // A pair of a later step is away before.
+            im.steps.list[0].changes.push(change(false));
+            im.steps.at_hand().changes.push(change(true));
+        }
+        let interaction = interaction.clone();
+        im.constraints.contacts.pairs.push(ContactCard { line: data.line, interaction, surfaces, is_thin });
     }
 }

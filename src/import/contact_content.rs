@@ -1,4 +1,4 @@
-//! The contacts of a file: laws and pairs of surfaces.
+//! The contacts of a file: laws and pairs of surfaces, and which of them come and go.
 
 use crate::scopes::NamedTarget;
 
@@ -22,6 +22,34 @@ pub struct ContactCard {
     pub surfaces: [NamedTarget; 2],
     /// True where Abaqus leaves out the thickness of shells: nodes touch a surface at finite sliding.
     pub is_thin: bool,
+}
+
+/// A line of `*MODEL CHANGE`, or a contact pair of a later step.
+#[derive(Debug, Clone)]
+pub struct ModelChange {
+    /// Its line.
+    pub line: usize,
+    /// Elements, or the two surfaces of a contact pair.
+    pub targets: Vec<NamedTarget>,
+    /// True for a contact pair.
+    pub is_pair: bool,
+    /// True where it is added, false where it is removed.
+    pub is_added: bool,
+    /// True where added elements strain from the start of the file on.
+    pub has_strain: bool,
+}
+
+impl ModelChange {
+    /// A contact pair that comes or goes.
+    pub fn of_pair(line: usize, surfaces: Vec<NamedTarget>, is_added: bool) -> Self {
+        ModelChange { line, targets: surfaces, is_pair: true, is_added, has_strain: true }
+    }
+
+    /// True for this contact pair.
+    pub fn is_of_pair(&self, pair: &[NamedTarget; 2]) -> bool {
+        let same = |(a, b): (&NamedTarget, &NamedTarget)| a.name.eq_ignore_ascii_case(&b.name);
+        self.is_pair && self.targets.len() == 2 && self.targets.iter().zip(pair).all(same)
+    }
 }
 
 /// All contacts of a file.

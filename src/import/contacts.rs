@@ -82,7 +82,8 @@ fn pair(build: &mut Build, card: &ContactCard, touching: &[String], (piece, law)
         }
         None => table,
     };
-    build.deck.add(table);
+    let stages = build.timeline.stages_of_pair(&build.im.steps.list, &card.surfaces);
+    build.deck.add_in(table, stages);
 }
 
 /// Elements of each surface in contact: parts are cut there, and rigid elements have faces.

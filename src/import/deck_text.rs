@@ -96,6 +96,14 @@ impl DeckTable {
         self.value(key, list(xs.iter().map(|x| number(*x))))
     }
 
+    /// Returns the table with the stages in which it acts, if these are not all.
+    pub fn in_stages(self, stages: Option<&[String]>) -> Self {
+        match stages {
+            Some(stages) => self.names("stages", stages),
+            None => self,
+        }
+    }
+
     /// Returns the table with names: one alone, or a list.
     pub fn names(self, key: &str, names: &[String]) -> Self {
         match names {
@@ -121,6 +129,13 @@ impl DeckText {
                 known.keys.extend(table.keys);
             }
             None => self.tables.push(table),
+        }
+    }
+
+    /// Adds a table that acts in some stages, in all for `None`; none where it acts in none.
+    pub fn add_in(&mut self, table: DeckTable, stages: Option<Vec<String>>) {
+        if stages.as_ref().is_none_or(|stages| !stages.is_empty()) {
+            self.add(table.in_stages(stages.as_deref()));
         }
     }
 

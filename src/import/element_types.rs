@@ -41,6 +41,16 @@ pub enum ElementUse {
     Foreign,
 }
 
+impl ElementUse {
+    /// True for springs, dampers, gaps and connectors.
+    pub fn is_between_nodes(self) -> bool {
+        use ElementUse as Use;
+        let is_spring = matches!(self, Use::GroundSpring | Use::DirectedSpring | Use::AxialSpring | Use::JointC);
+        let is_damper = matches!(self, Use::GroundDamper | Use::DirectedDamper | Use::AxialDamper);
+        is_spring || is_damper || matches!(self, Use::Gap | Use::Connector)
+    }
+}
+
 /// A type of elements.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ElementType {

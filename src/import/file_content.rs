@@ -1,6 +1,6 @@
 //! The content of a file, before sets and instances are resolved.
 
-use crate::contact_content::ContactCards;
+use crate::contact_content::{ContactCards, ModelChange};
 use crate::scopes::NamedTarget;
 use crate::tied_nodes::NodalAxes;
 use base::math::Vec3;
@@ -545,6 +545,8 @@ pub struct StepCard {
     pub temperatures: Vec<TemperatureLine>,
     /// True where earlier temperatures end.
     pub new_temperatures: bool,
+    /// Contact pairs and elements that come or go.
+    pub changes: Vec<ModelChange>,
     /// Damping by modes, its line, and the last mode with it, counted without gaps from the first.
     pub damping: Option<(DampingOfModes, usize, u64)>,
 }

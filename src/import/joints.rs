@@ -48,13 +48,19 @@ pub fn connectors(build: &mut Build) {
             let name = build.deck.unique(&format!("{}_{}", section.target.name, cell.id));
             build.mesh.used.extend(cell.nodes.iter().filter(|node| **node != 0));
             let ends = [cell.nodes[0], cell.nodes[1]];
-            match (&kind[..], JOINTS.iter().find(|(word, _)| *word == kind)) {
+            let table = match (&kind[..], JOINTS.iter().find(|(word, _)| *word == kind)) {
                 (_, Some((_, joint))) => self::joint(build, &section, joint, (&name, ends)),
                 ("AXIAL", _) => axial(build, &section, &name, ends),
                 ("BUSHING" | "CARDAN+CARTESIAN" | "CARTESIAN+ROTATION" | "CARTESIAN", _) => {
-                    bushing(build, &section, &name, ends);
+                    Some(bushing(build, &section, &name, ends))
                 }
-                _ => build.im.refuse(section.line, &format!("connections of type {kind} are not translated")),
+                _ => {
+                    build.im.refuse(section.line, &format!("connections of type {kind} are not translated"));
+                    None
+                }
+            };
+            if let Some(table) = table {
+                build.deck.add_in(table, build.timeline.stages_of_cell(at));
             }
         }
     }
@@ -111,9 +117,14 @@ pub fn refuse_one_place(build: &mut Build, line: usize, [a, b]: [u64; 2]) -> boo
 }
 
 /// A joint between two nodes.
-fn joint(build: &mut Build, section: &ConnectorSection, joint: &JointOf, (name, [a, b]): (&str, [u64; 2])) {
+fn joint(
+    build: &mut Build,
+    section: &ConnectorSection,
+    joint: &JointOf,
+    (name, [a, b]): (&str, [u64; 2]),
+) -> Option<DeckTable> {
     if joint.word == "distance" && refuse_one_place(build, section.line, [a, b]) {
-        return;
+        return None;
     }
     let [first, plane] = axes(build, section);
     let (from, to) = if joint.is_turned { (b, a) } else { (a, b) };
@@ -150,8 +161,7 @@ fn joint(build: &mut Build, section: &ConnectorSection, joint: &JointOf, (name, 
         table = stiffness.map_or(table.clone(), |stiffness| table.number("stiffness", stiffness));
         table = damping.map_or(table.clone(), |damping| table.number("damping", damping));
     }
-    let table = drives(build, section, joint, table, [a, b]);
-    build.deck.add(table);
+    Some(drives(build, section, joint, table, [a, b]))
 }
 
 /// Adds motions and loads of the steps.
@@ -199,9 +209,9 @@ fn drives(
 }
 
 /// A spring and damper along the line between two nodes.
-fn axial(build: &mut Build, section: &ConnectorSection, name: &str, [a, b]: [u64; 2]) {
+fn axial(build: &mut Build, section: &ConnectorSection, name: &str, [a, b]: [u64; 2]) -> Option<DeckTable> {
     if refuse_one_place(build, section.line, [a, b]) {
-        return;
+        return None;
     }
     let behavior = behavior(build, section);
     refuse_rest(build, section, &behavior);
@@ -214,7 +224,7 @@ fn axial(build: &mut Build, section: &ConnectorSection, name: &str, [a, b]: [u64
         .value("to", build.end(b, a))
         .number("stiffness", behavior.stiffness[0].unwrap_or(0.0))
         .number("damping", behavior.damping[0].unwrap_or(0.0));
-    build.deck.add(table);
+    Some(table)
 }
 
 /// Refuses stops, loads and motions, which links and bushings of the deck do not have.
@@ -231,7 +241,7 @@ fn refuse_rest(build: &mut Build, section: &ConnectorSection, behavior: &Connect
 }
 
 /// Springs and dampers along and about three axes.
-fn bushing(build: &mut Build, section: &ConnectorSection, name: &str, [a, b]: [u64; 2]) {
+fn bushing(build: &mut Build, section: &ConnectorSection, name: &str, [a, b]: [u64; 2]) -> DeckTable {
     let behavior = behavior(build, section);
     refuse_rest(build, section, &behavior);
     let axes = axes(build, section);
@@ -241,12 +251,11 @@ fn bushing(build: &mut Build, section: &ConnectorSection, name: &str, [a, b]: [u
     build.turning.extend([a, b].iter().flat_map(|node| turns.iter().map(|dof| (*node, *dof))));
     build.tied.bushed.extend([a, b].iter().filter(|node| **node != 0));
     let six = |of: &[Option<f64>; 6]| of.map(Option::unwrap_or_default);
-    let table = DeckTable::new("links", section.line)
+    DeckTable::new("links", section.line)
         .text("name", name)
         .value("from", build.end(a, b))
         .value("to", build.end(b, a))
         .numbers("bushing", &six(&behavior.stiffness))
         .numbers("bushing_damping", &six(&behavior.damping))
-        .value("axes", list(axes.iter().map(|axis| vector(axis.as_slice()))));
-    build.deck.add(table);
+        .value("axes", list(axes.iter().map(|axis| vector(axis.as_slice()))))
 }

@@ -4,7 +4,8 @@ use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::{
     amplitude_cards, base_motion, connector_cards, constraint_cards, contact_cards, harmonics, material_cards,
-    mesh_cards, mesh_makers, nodal_axes, pretension, property_cards, section_cards, step_cards, temperatures,
+    mesh_cards, mesh_makers, model_changes, nodal_axes, pretension, property_cards, section_cards, step_cards,
+    temperatures,
 };
 use base::text_file::cards::stands_for;
 use std::fmt::Write;
@@ -133,6 +134,7 @@ pub const KEYWORDS: &[KeywordRow] = &[
         contact_cards::pair,
         "[[contacts]]",
     ),
+    read("MODEL CHANGE", "", model_changes::model_change, "`stages` of [[contacts]], [[links]] and [[joints]]"),
     read("SURFACE INTERACTION", "", contact_cards::interaction, "what acts in [[contacts]]"),
     read(
         "SURFACE BEHAVIOR",
@@ -233,7 +235,6 @@ pub const KEYWORDS: &[KeywordRow] = &[
     refuse("CHANGE FRICTION", CONTACT),
     refuse("CHANGE SURFACE BEHAVIOR", CONTACT),
     refuse("CLEARANCE", CONTACT),
-    refuse("MODEL CHANGE", "elements that come or go are not translated; use `stages` of links, joints and supports"),
     refuse("CREEP", LAW),
     refuse("VISCO", "steps with creep are not translated"),
     refuse("HYPERELASTIC", LAW),

@@ -39,6 +39,7 @@ mod material_cards;
 mod mesh_cards;
 mod mesh_makers;
 mod mesh_text;
+mod model_changes;
 mod nodal_axes;
 mod nodal_numbers;
 mod output;

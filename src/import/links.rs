@@ -43,6 +43,7 @@ pub fn links(build: &mut Build) {
         }
         for at in build.cells(&card.target) {
             let cell = build.mesh.cells[at].clone();
+            let stages = build.timeline.stages_of_cell(at);
             let becomes = build.im.scopes.types[cell.kind].becomes;
             let name = build.deck.unique(&format!("{}_{}", card.target.name, cell.id));
             let table = DeckTable::new("links", card.line).text("name", &name);
@@ -63,7 +64,7 @@ pub fn links(build: &mut Build) {
             };
             if let Some(table) = table {
                 build.mesh.used.extend(cell.nodes.iter().filter(|node| **node != 0));
-                build.deck.add(table);
+                build.deck.add_in(table, stages);
             }
         }
     }

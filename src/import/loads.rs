@@ -181,10 +181,7 @@ pub fn in_time(table: DeckTable, law: Option<&TimeLaw>) -> DeckTable {
         Some(name) => table.text("amplitude", name),
         None => table,
     };
-    match &law.stages {
-        Some(stages) => table.names("stages", stages),
-        None => table,
-    }
+    table.in_stages(law.stages.as_deref())
 }
 
 /// Adds velocities at the start.

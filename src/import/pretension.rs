@@ -258,10 +258,7 @@ fn pull(build: &mut Build, cut: &Cut, force: &[InStep], stages: Option<Vec<Strin
     let keys = keys("value", &law);
     let table = table(build, cut, ("prismatic", "tightened")).numbers("axis", cut.axis.as_slice());
     let table = table.value("effort", inline(&keys));
-    build.deck.add(match stages {
-        Some(stages) => table.names("stages", &stages),
-        None => table,
-    });
+    build.deck.add(table.in_stages(stages.as_deref()));
 }
 
 /// Adds a joint that is closed by a way.

@@ -7,7 +7,7 @@ use crate::temperatures;
 use base::text_file::cards::{Data, Keyword, name_in};
 
 /// Why a line that acts in a step is refused outside of all steps.
-const NO_STEP: &str = "no *STEP is open at this line";
+pub const NO_STEP: &str = "no *STEP is open at this line";
 
 /// `*STEP`.
 pub fn step(im: &mut Importer, block: &KeywordBlock) {

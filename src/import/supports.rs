@@ -246,10 +246,7 @@ fn write(build: &mut Build, group: Alike, targets: &[NamedTarget]) {
         if !moved.is_empty() {
             table = table.value("motion", inline(&moved));
         }
-        if let Some(stages) = &stages {
-            table = table.names("stages", stages);
-        }
-        build.deck.add(table);
+        build.deck.add(table.in_stages(stages.as_deref()));
     }
 }
 

@@ -30,6 +30,8 @@ pub struct Timeline {
     pub general: Vec<usize>,
     /// The time step where all steps are one linear analysis.
     pub linear_step: Option<f64>,
+    /// In which steps elements act that `*MODEL CHANGE` names.
+    pub acting: BTreeMap<usize, Vec<bool>>,
 }
 
 /// The entry of a line: value, amplitude, line.
@@ -108,7 +110,7 @@ impl Timeline {
         let timed: Vec<usize> = (0..first.len()).filter(|&at| first[at].duration > 0.0).collect();
         // A file of modes alone uses the loads of their own step.
         let general = if timed.is_empty() { (0..first.len().min(1)).collect() } else { timed };
-        Timeline { stages: first, general, linear_step: linear::time_step(im) }
+        Timeline { stages: first, general, linear_step: linear::time_step(im), acting: BTreeMap::new() }
     }
 
     /// True for a deck of stages; false for one of a single analysis.

@@ -11,6 +11,7 @@ use super::places::spot::Spot;
 use super::procedure::stops::NamedActors;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
+use super::stages::CurrentStage;
 use super::values::{chosen, keys};
 use base::diagnostic::At;
 use base::math::Mat3;
@@ -19,7 +20,7 @@ use deck::words::Table;
 use given_rotations::{GivenRotations, TurnSetting, TurnedNode};
 use in_axes::{GivenDirection as Given, HeldDirections, SupportInAxes};
 use mechanics::amplitude::Amplitude;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Restrains nodes, and adds the joints that hold dependent nodes to their supports. Returns the motions by the names of their supports, and the
 /// nodes whose rotations are given together.
@@ -31,7 +32,10 @@ pub(super) fn supports<'d>(
 ) -> (NamedActors<'d>, Vec<TurnedNode>) {
     let (support_points, moved, rotations) = (HashMap::new(), Vec::new(), GivenRotations::default());
     let held = HeldDirections::default();
-    let mut tables = Supports { scene, amplitudes, topology, support_points, joints, moved, rotations, held, report };
+    let of_others = scene.stage.iter().flat_map(CurrentStage::ends_elsewhere);
+    let resting = of_others.filter_map(|name| scene.names.point("node", name, &scene.parts, report)).collect();
+    let mut tables =
+        Supports { scene, amplitudes, topology, support_points, joints, moved, rotations, held, resting, report };
     let mut named = Vec::new();
     // Supports with axes see which nodes the others hold.
     let (in_axes, others): (Vec<_>, Vec<_>) = scene.deck.supports.iter().partition(|support| support.axes.is_some());
@@ -61,6 +65,8 @@ struct Supports<'a, 'd> {
     rotations: GivenRotations<'d>,
     /// The directions held at nodes of supports with axes.
     held: HeldDirections,
+    /// Ends of links and joints of other stages. Where nothing else joins them, a support has nothing to do.
+    resting: HashSet<usize>,
     report: &'a mut Report<'d>,
 }
 
@@ -68,7 +74,10 @@ impl<'d> Supports<'_, 'd> {
     fn support(&mut self, support: &'d At<Table<words::Support>>) {
         let owner = Owner::new("`[[supports]]`", &support.span);
         let spots = self.scene.spots(&owner, "at", &support.at, Reach::Parts, self.report);
-        let spots = self.topology.without_loose(spots, "this support", self.report);
+        let mut spots = self.topology.without_loose(spots, "this support", self.report);
+        spots.retain(|spot| {
+            !self.resting.contains(&spot.node) || (0..6).any(|dof| self.topology.is_taken(spot.node, dof))
+        });
         let mut motions = support.motion.as_ref().map_or_else(Vec::new, |motions| self.motions(support, motions));
         let fixed = support.fix.as_ref().map_or([false; 6], |fix| fix.0);
         let unread = self.report.is_spoiled(owner.span, "fix") || self.report.is_spoiled(owner.span, "motion");

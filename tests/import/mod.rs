@@ -6,6 +6,7 @@ mod constraints;
 mod dresses;
 mod keywords;
 mod mesh_makers;
+mod model_changes;
 mod pretension;
 mod robots;
 mod round_trip;

@@ -5,15 +5,20 @@ use crate::support;
 use import::Imported;
 use rdsolve::diagnostic::Source;
 use rdsolve::model::{self, Model};
+use rdsolve::solve::{Frame, Outcome};
+use std::path::Path;
 
 /// Displacement and rotation vector of a node at the end of a deck that has been imported; and the largest displacement along x.
 pub fn moves(text: &str, node: &str) -> ([f64; 3], f64) {
     let made = imported(text);
     assert_eq!(refusals(&made), [""; 0]);
-    let model = model_of(&made);
-    let at = support::node(&model, node);
-    let start = model.nodes[at].x;
-    let done = support::run_to_the_end(&model, &mut |frame| (frame.state.nodes[at].x - start).as_slice().to_vec());
+    let folder = tempfile::tempdir().unwrap();
+    let models = support::read_stages(&source_of(&made, folder.path()));
+    let at = support::node(&models[0], node);
+    let start = models[0].nodes[at].x;
+    let from_start = &mut |frame: &Frame| (frame.state.nodes[at].x - start).as_slice().to_vec();
+    let done = support::run_source(&source_of(&made, folder.path()), from_start);
+    assert!(matches!(done.outcome, Outcome::Done), "{:?}", done.outcome);
     let last = done.rows.last().unwrap();
     let most = done.rows.iter().map(|row| row[0]).fold(0.0, f64::max);
     ([last[0], last[1], last[2]], most)
@@ -22,10 +27,15 @@ pub fn moves(text: &str, node: &str) -> ([f64; 3], f64) {
 /// The model of a deck that has been made.
 pub fn model_of(made: &Imported) -> Model {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("a.mesh.inp"), &made.mesh).unwrap();
-    let source = Source::new(folder.path().join("a.toml").display().to_string(), made.deck.as_str(), &[]);
+    let source = source_of(made, folder.path());
     let (model, said) = model::read(&source);
     model.unwrap_or_else(|| panic!("{}\n{}", said[0].draw(&source, false), made.deck))
+}
+
+/// A deck that has been made, with its mesh in a folder.
+fn source_of(made: &Imported, folder: &Path) -> Source {
+    std::fs::write(folder.join("a.mesh.inp"), &made.mesh).unwrap();
+    Source::new(folder.join("a.toml").display().to_string(), made.deck.as_str(), &[])
 }
 
 pub fn near(value: f64, wanted: f64, tolerance: f64) {

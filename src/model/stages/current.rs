@@ -170,6 +170,15 @@ impl<'d> CurrentStage<'d> {
         self.sequence.holds(self.index, stages)
     }
 
+    /// The names of the nodes at the ends of links and joints that other stages have.
+    pub fn ends_elsewhere(&self) -> impl Iterator<Item = &'d At<String>> {
+        let whole = self.sequence.whole;
+        let links = whole.links.iter().map(|link| (&link.stages, [&link.from, &link.to]));
+        let joints = whole.joints.iter().map(|joint| (&joint.stages, [&joint.from, &joint.to]));
+        let away = links.chain(joints).filter(|(stages, _)| !self.holds(stages));
+        away.flat_map(|(_, ends)| ends).flatten().filter_map(|end| end.node.as_ref())
+    }
+
     /// True where a load with these `stages` acts: about modes those of the stage before do.
     pub fn is_loaded(&self, stages: &Maybe<Names>) -> bool {
         let before = self.sequence.before(self.index).filter(|_| self.has_modes());
