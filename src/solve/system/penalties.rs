@@ -168,26 +168,29 @@ impl Diagonal {
     /// The effective stiffness behind an equation: the inverse of Σ g²/K over its degrees of freedom, zero without stiffness. Then the
     /// largest K g² of translations, or of rotations for a rotational equation. With `even`, K is the mean over the translations or
     /// rotations of a node, which does not depend on axes. Arms are omitted if the equation has other terms, so joints of one body share
-    /// loads equally at all places.
+    /// loads equally at all places. Components of g that are rounding do not count: the stiffness behind them, over their square, has no limit.
     fn stiffness(
         &self,
         G: &[Vec6],
         (rotational, even): (bool, bool),
         projections: &[Vec<Mat6>],
-        (values, rounding): (&[f64], &[f64]),
+        (values, diagonals): (&[f64], &Diagonals),
     ) -> [f64; 2] {
         let (mut compliance, mut of_kind, mut largest) = (0.0, 0.0, 0.0f64);
+        let sizes_of_g = |g: Vec6| [linear(&g).amax(), angular(&g).amax()];
+        let [ways, turns] = G.iter().map(|g| sizes_of_g(*g)).fold([0.0f64; 2], |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
+        let felt = [NOTHING * ways, NOTHING * turns.max(ways * diagonals.extent)];
         for place in &self.0 {
             let &Place { end, node, index, .. } = place;
             let g = projections[node][index].tr_mul(&G[end]);
-            let sizes = place.sizes(values, rounding);
+            let sizes = place.sizes(values, &diagonals.rounding);
             let mean = |dofs: &[Option<f64>]| {
                 let known = || dofs.iter().flatten();
                 known().sum::<f64>() / known().count().max(1) as f64
             };
             let means = if even { [mean(&sizes[..3]), mean(&sizes[3..])] } else { [0.0; 2] };
             for (dof, (g, own)) in g.iter().zip(sizes).enumerate() {
-                let Some(own) = own else { continue };
+                let Some(own) = own.filter(|_| g.abs() > felt[usize::from(dof > 2)]) else { continue };
                 let K = if even { means[usize::from(dof > 2)] } else { own };
                 if K > 0.0 {
                     compliance += g * g / K;
@@ -214,7 +217,9 @@ impl Diagonal {
         (values, extent): (&[f64], f64),
     ) -> [f64; 2] {
         let mut room = [Vec6::zeros(); MOST_ENDS];
-        let arm = |node: usize, k: usize| projections[node][k].fixed_view::<3, 3>(0, 3).amax();
+        // The arm of a node at the place of its master is rounding.
+        let felt = |arm: f64| if arm > NOTHING * extent { arm } else { 0.0 };
+        let arm = |node: usize, k: usize| felt(projections[node][k].fixed_view::<3, 3>(0, 3).amax());
         let longest = self.0.iter().map(|place| arm(place.node, place.index)).fold(0.0, f64::max);
         let of = |((k, row), lambda): ((usize, &ConstraintEquation), &f64)| {
             let G = joint.gradient(k, nodes, &mut room);
@@ -259,12 +264,8 @@ pub(super) fn set(
         firmest = [firmest[0].max(translations), firmest[1].max(rotations)];
         for (k, row) in joint.equations.iter().enumerate().filter(|_| firm.is_none()) {
             let how = (row.is_rotational(), multipliers.may_share());
-            let [s, heaviest] = diagonal.stiffness(
-                joint.gradient(k, nodes, &mut room),
-                how,
-                projections,
-                (values, &diagonals.rounding),
-            );
+            let [s, heaviest] =
+                diagonal.stiffness(joint.gradient(k, nodes, &mut room), how, projections, (values, &*diagonals));
             let s = match joint.is_driven(k) {
                 true => drive_penalty(
                     s,
