@@ -41,7 +41,6 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
         groups: BTreeMap::new(),
         turned: HashMap::new(),
         body_of: HashMap::new(),
-        touching: HashMap::new(),
         rotating: BTreeSet::new(),
         parts_of_bodies: BTreeSet::new(),
         weighed: BTreeSet::new(),

@@ -78,8 +78,6 @@ struct BodyNodes {
     pinned: BTreeSet<u64>,
     own: BTreeSet<u64>,
     parts: Vec<String>,
-    /// True where contacts name one of its elements.
-    touches: bool,
 }
 
 fn nodes_of(build: &mut Build, card: &RigidCard, marks: &[BTreeSet<usize>]) -> BodyNodes {
@@ -91,7 +89,6 @@ fn nodes_of(build: &mut Build, card: &RigidCard, marks: &[BTreeSet<usize>]) -> B
         tied.extend(surfaces::nodes_of(build, surface).unwrap_or_default());
     }
     let cells: BTreeSet<usize> = card.cells.iter().flat_map(|target| build.cells(target)).collect();
-    let touches = marks.iter().any(|mark| !mark.is_disjoint(&cells));
     let (mut of_parts, mut parts) = (BTreeSet::new(), Vec::new());
     for piece in build.pieces.iter().filter(|piece| piece.is_rigid && piece.cells.is_subset(&cells)) {
         of_parts.extend(piece.elements.iter().flat_map(|element| element.2.iter().copied()));
@@ -109,7 +106,7 @@ fn nodes_of(build: &mut Build, card: &RigidCard, marks: &[BTreeSet<usize>]) -> B
     tied.retain(|node| !of_parts.contains(node) && !pinned.contains(node));
     tied.retain(|node| !of_faces.contains(node));
     of_parts.extend(of_faces);
-    BodyNodes { tied, pinned, own: of_parts, parts, touches }
+    BodyNodes { tied, pinned, own: of_parts, parts }
 }
 
 /// Adds rigid elements in contact as a shell next to nothing thick and heavy; returns its name and nodes.
@@ -162,7 +159,7 @@ fn faces(
 
 fn body(build: &mut Build, card: &RigidCard, masses: &BTreeMap<u64, PointMass>, marks: &[BTreeSet<usize>]) {
     let Some(reference) = build.node(&card.reference) else { return };
-    let BodyNodes { mut tied, pinned, own, parts, touches } = nodes_of(build, card, marks);
+    let BodyNodes { mut tied, pinned, own, parts } = nodes_of(build, card, marks);
     if let Some(target) = &card.rotations
         && let Some(node) = build.node(target)
     {
@@ -170,9 +167,6 @@ fn body(build: &mut Build, card: &RigidCard, masses: &BTreeMap<u64, PointMass>, 
         tied.remove(&node);
     }
     let name = build.deck.unique_or(&card.name, "body");
-    if touches {
-        build.touching.insert(reference, name.clone());
-    }
     tied.remove(&reference);
     let all: BTreeSet<u64> = tied.iter().chain(&pinned).copied().chain([reference]).collect();
     let table = DeckTable::new("bodies", card.line).text("name", &name);

@@ -27,8 +27,6 @@ pub struct Build<'b, 'a, 't> {
     pub turned: HashMap<u64, u64>,
     /// The name of the body of each node that is attached to one.
     pub body_of: HashMap<u64, String>,
-    /// The body in contact of each of their reference nodes.
-    pub touching: HashMap<u64, String>,
     /// Nodes whose rotations something holds: nodes of beams, shells, bodies.
     pub rotating: BTreeSet<u64>,
     /// Names of parts that form bodies.

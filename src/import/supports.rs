@@ -218,7 +218,7 @@ fn write(build: &mut Build, group: Alike, targets: &[NamedTarget]) {
     }
     let of_lines: Vec<NamedTarget> =
         targets.iter().filter(|target| group.lines.contains(&target.line)).cloned().collect();
-    let names = names(build, &group, &of_lines);
+    let names = build.names(&group.nodes, &of_lines, "held");
     for stages in seen {
         let mut table = DeckTable::new("supports", 0).with_lines(group.lines.iter().copied()).names("at", &names);
         let here = |dof: &usize| group.held[*dof].as_ref().filter(|(_, at)| *at == stages).map(|(held, _)| held);
@@ -248,18 +248,6 @@ fn write(build: &mut Build, group: Alike, targets: &[NamedTarget]) {
         }
         build.deck.add(table.in_stages(stages.as_deref()));
     }
-}
-
-/// Names for the nodes of a group. The body replaces its reference node where it is in contact and its rotations are held: supports of bodies
-/// need no multipliers, which converge badly beside penalties of contact.
-fn names(build: &mut Build, group: &Alike, targets: &[NamedTarget]) -> Vec<String> {
-    let turns = (3..6).any(|dof| group.held[dof] != Some((HeldAs::Fixed, None)));
-    let body = |node: &u64| build.touching.get(node).filter(|_| !turns).cloned();
-    let bodies: BTreeSet<String> = group.nodes.iter().filter_map(body).collect();
-    let nodes: BTreeSet<u64> = group.nodes.iter().copied().filter(|node| body(node).is_none()).collect();
-    let mut names: Vec<String> = bodies.into_iter().collect();
-    names.extend(build.names(&nodes, targets, "held"));
-    names
 }
 
 /// True where the axes make no difference: all translations or none are held, and all rotations or none.
