@@ -100,6 +100,11 @@ pub trait Observer {
         false
     }
 
+    /// The tolerance of later steps, once after each change. It is asked before every step.
+    fn new_tolerance(&mut self) -> Option<f64> {
+        None
+    }
+
     /// True where a checkpoint is due. It is asked before every step, and at the end of a run that can be made longer.
     fn wants_checkpoint(&mut self, _at_end: bool) -> bool {
         false

@@ -10,7 +10,7 @@ use super::recorder::Recorder;
 use super::run::{Run, SingleRun};
 use super::stop_watch::StopWatch;
 use super::warning::Warnings;
-use crate::tolerances::global_error::{EARLY, FEW, IN_TIME, LOOSER, MOST_EARLY, MOST_LONGER, MOST_RUNS};
+use crate::tolerances::global_error::{EARLY, FEW, IN_TIME, LOOSER, MOST_EARLY, MOST_LONGER, MOST_RUNS, STRICTER};
 use base::snapshot::{Keep, keep, keep_either};
 use mechanics::state::State;
 use model::StepLength;
@@ -121,7 +121,10 @@ impl Run<'_> {
                 stopped: false,
             },
         };
-        self.follow(asked, None);
+        if self.pilot.as_ref().is_some_and(|pilot| pilot.met_events) {
+            control.error.tolerance *= STRICTER;
+        }
+        self.follow(control.error.tolerance, None);
         if let Some(snapshot) = &mut self.checkpoint {
             control.keep(snapshot);
             if control.under_way == UnderWay::Comparison {
@@ -142,11 +145,15 @@ impl Run<'_> {
         let times = comparison_times(control.between).chain(control.compared.iter().copied());
         let schedule = Schedule::new(model, times, self.controller.looks_inside()).cut(control.pieces.now);
         let pilot = self.pilot.take();
-        let ahead = pilot.as_ref().filter(|pilot| control.error.early < MOST_EARLY && control.is_told_by(pilot));
-        let ahead = ahead.map(|pilot| LookAhead::new(pilot, control.error.asked, self.context.length));
+        let ahead = pilot.as_ref().filter(|pilot| control.is_told_by(pilot));
+        let StepError { asked, tolerance, early, .. } = control.error;
+        let ahead =
+            ahead.map(|pilot| LookAhead::new(pilot, (asked, tolerance), self.context.length, early < MOST_EARLY));
         let mut trace = Trace::new(observer, model.solution.scheme.order() + 1, control.between).looking_ahead(ahead);
         let (outcome, state) = self.once(&mut trace, &schedule, control);
-        let (predicted, run) = (trace.predicted(), trace.into_kept().with_events(self.recorder.events.met()));
+        let predicted = trace.predicted();
+        control.error.tolerance = trace.mean_tolerance().unwrap_or(control.error.tolerance);
+        let run = trace.into_kept().with_events(self.recorder.events.met());
         self.pilot = pilot;
         if let Some(predicted) = predicted.filter(|_| !matches!(outcome, Outcome::Io(_))) {
             let longest = self.pilot.iter().chain([&run]).map(Kept::longest).fold(0.0, f64::max);

@@ -527,6 +527,10 @@ pub mod global_error {
     pub const LOST: f64 = 0.03;
     /// The difference of two runs that have nothing in common, relative to the motion.
     pub const SATURATED: f64 = 0.3;
+    /// Ratio of the errors of two runs above which their difference tells the error even if it is saturated.
+    pub const FAR_APART: f64 = 30.0;
+    /// Ratio of the tolerances of the first run and a pilot run with events: steps about two thirds as long.
+    pub const STRICTER: f64 = 0.3;
 }
 
 pub mod trace {
@@ -542,10 +546,22 @@ pub mod trace {
     pub const TELLING: f64 = 1.1;
     /// Least number of times, since both runs may agree by chance at one of them.
     pub const FEWEST: usize = 3;
+}
+
+pub mod look_ahead {
     /// Number of the time of comparison at which the error of a whole run is predicted, a quarter of all.
     pub const PREDICTED_AT: usize = 4;
     /// Predicted error, as a multiple of the error asked for, that ends a run early. Predictions err by a factor of two.
     pub const FUTILE: f64 = 2.0;
+    /// Largest power of time that errors are believed to follow: errors of velocities become errors of positions, and grow as they do in motion
+    /// that speeds up.
+    pub const FASTEST: f64 = 2.5;
+    /// Least factor between two tolerances that is worth the matrix of another step.
+    pub const WORTH: f64 = 1.5;
+    /// Largest ratio of a tolerance to the error asked for. The iteration ends at a hundredth of it.
+    pub const MOST: f64 = 4.0;
+    /// Least ratio of the errors of the pilot run and the run: their difference is then mainly the error of the pilot run.
+    pub const TELLING: f64 = 1.8;
 }
 
 pub mod modes_at_end {

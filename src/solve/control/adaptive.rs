@@ -62,6 +62,9 @@ pub trait StepController: Keep {
         Ok(None)
     }
 
+    /// Follows another error tolerance from here on. Nothing is done where steps follow none.
+    fn go_on_with(&mut self, _tolerance: f64) {}
+
     /// Returns to the start of the last step, if the motion inside turns out unknown.
     fn take_back(&mut self, _: &mut State) {}
 }
@@ -75,6 +78,9 @@ impl<C: StepController> CoverInterval for C {
     fn cover(&mut self, march: &mut March, interval: &Interval) -> Result<(), Outcome> {
         let least = march.cx.model.analysis.least_step;
         while march.state.time < interval.to {
+            if let Some(tolerance) = march.observer.new_tolerance() {
+                self.go_on_with(tolerance);
+            }
             march.pause(self)?;
             let left = interval.to - march.state.time;
             let length = self.propose(march.cx, march.ws, march.state, left);

@@ -159,6 +159,10 @@ impl StepController for EmbeddedErrorController {
         self.next = 0.5 * dt;
     }
 
+    fn go_on_with(&mut self, tolerance: f64) {
+        self.tolerance = tolerance;
+    }
+
     fn look_inside(
         &mut self,
         cx: &Context,

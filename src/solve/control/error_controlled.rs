@@ -317,6 +317,15 @@ impl StepController for ErrorController<'_> {
         self.length = 0.5 * dt;
     }
 
+    fn go_on_with(&mut self, tolerance: f64) {
+        let change = self.tolerance / tolerance;
+        self.tolerance = tolerance;
+        self.stepper.solver.newton.tolerance.follow(tolerance);
+        for intensity in [&mut self.lasting_intensity, &mut self.intensity] {
+            *intensity = intensity.map(|intensity| intensity * change);
+        }
+    }
+
     fn look_inside(
         &mut self,
         cx: &Context,

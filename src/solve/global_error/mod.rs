@@ -5,10 +5,12 @@
 //! the error of the worse run, and a known multiple of the error of the better run (L. F. Richardson, 1911). If the error exceeds the
 //! requested one, the run is repeated with a tolerance computed from it.
 
+mod look_ahead;
 mod trace;
 
-use crate::tolerances::global_error::{AIM, CHANGE, LOST, SATURATED, WITHIN};
-pub use trace::{Kept, LookAhead, Trace, Unseen};
+use crate::tolerances::global_error::{AIM, CHANGE, FAR_APART, LOST, SATURATED, WITHIN};
+pub use look_ahead::LookAhead;
+pub use trace::{Kept, Trace, Unseen};
 
 use crate::tolerances::trace::TELLING;
 
@@ -98,7 +100,9 @@ impl StepError {
         // Two runs with nothing in common hardly show how much shorter steps must be; several such runs show that no length suffices.
         let lost = difference > SATURATED;
         let hopeless = lost && self.others > 2 && before.is_some_and(|before| estimate > 0.5 * before);
-        let tolerance = if lost { LOST * self.tolerance } else { self.in_place_of(estimate) };
+        // Runs with very different steps tell the error of the better run even so.
+        let is_unknown = lost && self.apart < FAR_APART;
+        let tolerance = if is_unknown { LOST * self.tolerance } else { self.in_place_of(estimate) };
         ((!nears || estimate > WITHIN * self.asked) && !hopeless).then_some(tolerance)
     }
 

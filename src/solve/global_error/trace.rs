@@ -1,8 +1,9 @@
 //! The motion of a run at a few times, for the comparison of runs with different steps.
 
+use super::look_ahead::LookAhead;
 use crate::control::{COMPARISONS, comparison_time};
 use crate::frame::{Frame, Observer};
-use crate::tolerances::trace::{EVENTFUL, FEWEST, FUTILE, MOST_NODES, PREDICTED_AT, SLOPE, TELLING, USUAL_STEPS};
+use crate::tolerances::trace::{EVENTFUL, FEWEST, MOST_NODES, SLOPE, TELLING, USUAL_STEPS};
 use base::math::Vec3;
 use base::snapshot::{Keep, Snapshot, keep};
 use model::Model;
@@ -48,14 +49,19 @@ impl<'o> Trace<'o> {
         Trace { observer, kept: Kept { power: power as i32, between, ..Kept::default() }, ahead: None }
     }
 
-    /// The trace of a run that ends early if its difference to a pilot run predicts too large an error.
+    /// The trace of a run whose tolerance follows its difference to a pilot run, and which ends early if the predicted error is too large.
     pub fn looking_ahead(self, ahead: Option<LookAhead<'o>>) -> Self {
         Trace { ahead, ..self }
     }
 
     /// The predicted error of a run that has ended early.
     pub fn predicted(&self) -> Option<f64> {
-        self.ahead.as_ref().and_then(|ahead| ahead.predicted)
+        self.ahead.as_ref().and_then(LookAhead::predicted)
+    }
+
+    /// The mean tolerance of the steps so far, if it followed a pilot run.
+    pub fn mean_tolerance(&self) -> Option<f64> {
+        self.ahead.as_ref().map(LookAhead::mean_tolerance)
     }
 
     /// The kept data.
@@ -98,14 +104,21 @@ impl Observer for Trace<'_> {
         }
         let seen = self.kept.times;
         self.kept.look(frame);
-        if let Some(ahead) = self.ahead.as_mut().filter(|_| self.kept.times > seen) {
-            ahead.look(&self.kept);
+        if let Some(ahead) = &mut self.ahead {
+            ahead.advance(frame.state.time);
+            if self.kept.times > seen {
+                ahead.look(&self.kept);
+            }
         }
         self.observer.on_step(frame)
     }
 
     fn is_futile(&self) -> bool {
         self.predicted().is_some()
+    }
+
+    fn new_tolerance(&mut self) -> Option<f64> {
+        self.ahead.as_mut().and_then(LookAhead::new_tolerance)
     }
 
     fn wants_checkpoint(&mut self, at_end: bool) -> bool {
@@ -118,6 +131,7 @@ impl Observer for Trace<'_> {
 
     fn keep_seen(&mut self, snapshot: &mut Snapshot) {
         self.kept.keep(snapshot);
+        self.ahead.iter_mut().for_each(|ahead| ahead.keep(snapshot));
     }
 
     fn restart(&mut self, model: &Model) -> io::Result<()> {
@@ -178,10 +192,22 @@ impl Kept {
     }
 
     /// The same for another run with these ends of steps.
-    fn steps_apart_from(&self, ends: &[f64]) -> f64 {
+    pub(super) fn steps_apart_from(&self, ends: &[f64]) -> f64 {
         let [own, theirs] =
             [(&self.ends[..], ends), (ends, &self.ends[..])].map(|(run, than)| own_steps(run, than, self.power));
         if own.left > 0.0 { (theirs.left / own.left).powf(SLOPE) } else { 1.0 }
+    }
+
+    /// The rate at which errors arise between two times: the mean of a power of the step.
+    pub(super) fn rate_of_errors(&self, from: f64, to: f64) -> f64 {
+        let [first, last] = [from, to].map(|time| self.ends.partition_point(|end| *end <= time + 1e-9 * to.abs()));
+        let steps = &self.ends[first.saturating_sub(1)..(last + 1).min(self.ends.len())];
+        let (mut sum, mut time) = (0.0, 0.0);
+        for step in steps.windows(2) {
+            let length = step[1] - step[0];
+            (sum, time) = (sum + length.powi(self.power), time + length);
+        }
+        sum / time
     }
 
     /// True where the steps of another run are enough longer to tell the error of this one.
@@ -220,7 +246,7 @@ impl Kept {
     }
 
     /// The same over the first of the times.
-    fn difference_over(&self, other: &Kept, extent: f64, times: usize) -> f64 {
+    pub(super) fn difference_over(&self, other: &Kept, extent: f64, times: usize) -> f64 {
         let (displacement, rotation) = self.motion().max(other.motion());
         let (displacement, rotation) =
             (displacement.max(1e-6 * rotation * extent), rotation.max(displacement / extent));
@@ -267,43 +293,6 @@ impl Kept {
     fn motion(&self) -> Motion {
         let moved = self.displacements.iter().map(|u| u.norm()).fold(0.0, f64::max);
         Motion(moved, self.rotations.iter().map(angle).fold(0.0, f64::max))
-    }
-}
-
-/// Predicts the error of a run from its first part, by the difference to a pilot run of the same scene.
-pub struct LookAhead<'o> {
-    pilot: &'o Kept,
-    /// The error asked for.
-    asked: f64,
-    /// The length of the model.
-    extent: f64,
-    /// The predicted error, if it is too large.
-    predicted: Option<f64>,
-}
-
-impl<'o> LookAhead<'o> {
-    /// Nothing predicted yet of a run whose error is to be as asked.
-    pub fn new(pilot: &'o Kept, asked: f64, extent: f64) -> Self {
-        LookAhead { pilot, asked, extent, predicted: None }
-    }
-
-    /// Judges the run at one of its times. The growth of the error so far goes on, up to that in proportion to time.
-    fn look(&mut self, run: &Kept) {
-        let LookAhead { pilot, asked, extent, .. } = *self;
-        if run.times != PREDICTED_AT {
-            return;
-        }
-        let [half, whole] = [run.times / 2, run.times].map(|times| run.difference_over(pilot, extent, times));
-        let end = run.end();
-        let rounding = 1e-9 * end.abs();
-        let ends = &pilot.ends[..pilot.ends.partition_point(|time| *time <= end + rounding)];
-        let apart = run.steps_apart_from(ends);
-        if apart <= TELLING || half <= 0.0 {
-            return;
-        }
-        let growth = (whole / half).log2().clamp(0.0, 1.0);
-        let predicted = whole / (apart - 1.0) * (COMPARISONS as f64 / run.times as f64).powf(growth);
-        self.predicted = (predicted > FUTILE * asked).then_some(predicted);
     }
 }
 

@@ -1,0 +1,102 @@
+//! The error of a run under way, from its difference to a pilot run with longer steps.
+//!
+//! The difference D of both runs gives the error E = D/(a - 1) of the run so far, where a is the ratio of both errors by the steps. The error at
+//! the end follows from its growth. A run whose error will be too large ends early. If its error will be far below the one asked for,
+//! the tolerance of the rest of the run rises.
+
+use super::trace::Kept;
+use crate::control::COMPARISONS;
+use crate::tolerances::global_error::{AIM, WITHIN};
+use crate::tolerances::look_ahead::{FASTEST, FUTILE, MOST, PREDICTED_AT, TELLING, WORTH};
+use crate::tolerances::trace::{SLOPE, TELLING as LEAST_APART};
+use base::snapshot::keep;
+
+/// Predicts the error of a run, and adapts the tolerance of its rest.
+pub struct LookAhead<'o> {
+    pilot: &'o Kept,
+    /// The error asked for.
+    asked: f64,
+    /// The length of the model.
+    extent: f64,
+    /// True if the run may end early.
+    may_end: bool,
+    /// The tolerance of the steps, and a new one that the controller has not received yet.
+    tolerance: f64,
+    changed: Option<f64>,
+    /// The time so far, and the integral of the tolerance over it.
+    time: f64,
+    spent: f64,
+    /// The time of the last look.
+    looked: f64,
+    /// The predicted error, if it is too large.
+    predicted: Option<f64>,
+}
+
+keep!(LookAhead<'_> { tolerance, changed, time, spent, looked, predicted } without { pilot, asked, extent, may_end });
+
+impl<'o> LookAhead<'o> {
+    /// Nothing predicted yet of a run with this tolerance, whose error is to be as asked.
+    pub fn new(pilot: &'o Kept, (asked, tolerance): (f64, f64), extent: f64, may_end: bool) -> Self {
+        let (time, looked) = (pilot.between[0], pilot.between[0]);
+        let (changed, spent, predicted) = (None, 0.0, None);
+        LookAhead { pilot, asked, extent, may_end, tolerance, changed, time, spent, looked, predicted }
+    }
+
+    /// The predicted error of a run that is to end early.
+    pub fn predicted(&self) -> Option<f64> {
+        self.predicted
+    }
+
+    /// The tolerance of later steps, once after each change.
+    pub fn new_tolerance(&mut self) -> Option<f64> {
+        self.changed.take()
+    }
+
+    /// The mean tolerance of the steps so far.
+    pub fn mean_tolerance(&self) -> f64 {
+        let past = self.time - self.pilot.between[0];
+        if past > 0.0 { self.spent / past } else { self.tolerance }
+    }
+
+    /// Counts the steps up to this time.
+    pub fn advance(&mut self, time: f64) {
+        self.spent += self.tolerance * (time - self.time);
+        self.time = time;
+    }
+
+    /// Judges the run at one of its times of comparison.
+    pub fn look(&mut self, run: &Kept) {
+        if !(PREDICTED_AT..COMPARISONS).contains(&run.times) {
+            return;
+        }
+        let end = run.end();
+        let known = self.pilot.ends.partition_point(|time| *time <= end + 1e-9 * end.abs());
+        let apart = run.steps_apart_from(&self.pilot.ends[..known]);
+        let half = run.times / 2;
+        let [before, difference] = [half, run.times].map(|times| run.difference_over(self.pilot, self.extent, times));
+        if apart <= LEAST_APART || before <= 0.0 || !difference.is_finite() {
+            return;
+        }
+        let [past, longer] = [COMPARISONS, half].map(|times| run.times as f64 / times as f64);
+        let growth = (difference / before).log(longer).clamp(0.0, FASTEST);
+        let error = difference / (apart - 1.0);
+        let predicted = error * past.powf(-growth);
+        // The root mean square over all times is at least this part of that so far.
+        let is_lost = error * past.sqrt() > WITHIN * self.asked;
+        let is_futile = run.times == PREDICTED_AT && predicted > FUTILE * self.asked;
+        if self.may_end && (is_lost || is_futile) {
+            self.predicted = Some(predicted);
+            return;
+        }
+        // Recent steps tell the ratio of the errors that this tolerance makes. Their error may grow faster yet.
+        let recent = (self.pilot.rate_of_errors(self.looked, end) / run.rate_of_errors(self.looked, end)).powf(SLOPE);
+        self.looked = end;
+        let of_pilot = error * apart * past.powf(-growth - 1.0);
+        let factor = (AIM * self.asked / of_pilot - past / apart) / (1.0 - past) * recent;
+        let tolerance = (factor.min(recent / TELLING) * self.tolerance).min(MOST * self.asked);
+        if tolerance > WORTH * self.tolerance {
+            self.tolerance = tolerance;
+            self.changed = Some(tolerance);
+        }
+    }
+}
