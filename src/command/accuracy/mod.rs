@@ -175,13 +175,17 @@ impl Shares {
 
 impl ChosenSettings {
     /// Keeps the pilot runs with the chosen mesh and a coarser one. In statics a run with the coarser mesh follows the last run.
-    fn keep_pilots(&mut self, pilots: &mut Pilots, mesh: ChosenMesh) {
+    fn keep_pilots(&mut self, pilots: &mut Pilots, mut mesh: ChosenMesh) {
+        // The run with the chosen mesh had the contacts of the deck.
+        if self.report.settings.iter().any(|set| set.contains(".stiffness=")) {
+            mesh.observed.motion = None;
+        }
         let Some((coarser, run)) = mesh.coarser else {
             self.pilots[0] = pilots.is_automatic().then_some(mesh.observed);
             return;
         };
         if pilots.is_automatic() {
-            // The run with the chosen mesh had the contacts of the deck too.
+            // Both pilot runs have the contacts of the deck.
             let sets = [&mesh.sets[..], &coarser.sets].concat();
             self.pilots = [Some(mesh.observed), run.or_else(|| pilots.run(&sets).ok())];
         }

@@ -11,7 +11,7 @@ use std::io;
 pub struct PilotRun {
     /// The results that `accuracy` is about.
     pub observed: ObservedRun,
-    /// The motion, if steps are automatic and forces have no kinks; the error of the last run follows from it.
+    /// The motion, if steps are automatic; the error of the last run follows from it.
     pub motion: Option<Kept>,
     /// The numbers of tables and of expectations, for error bars; only where steps are automatic.
     pub numbers: Option<(ErrorBars, Expectations)>,

@@ -12,9 +12,10 @@ use solve::system::System;
 use solve::{Counts, Outcome, Run, StepError, comparison_times};
 use std::sync::atomic::AtomicBool;
 
-/// Ratio of the step tolerance of the first run to the error asked for: steps about twice as long by a scheme of third order, ...
-const LOOSER: f64 = 8.0;
-/// ... up to a tolerance with which the steps of the first run still resolve the motion.
+/// Ratio of the step tolerance of the first run to the error asked for: steps up to five times as long by a scheme of third order. The
+/// difference between meshes needs no more, ...
+const LOOSER: f64 = 100.0;
+/// ... and a tolerance with which the steps of the first run still resolve the motion.
 const LOOSEST: f64 = 0.05;
 /// Ratio of the tolerances of later runs and the first. These runs take the steps of the first one and shorten only steps with four times its
 /// error.
@@ -69,8 +70,8 @@ impl Pilots<'_> {
         // Events of another mesh or stiffness come at other times, and need steps of their own.
         let like = like.map(|like| if run.has_kinks() { like } else { self.with_shared_steps(like) });
         let (outcome, motion) = run.rehearse(self.times(), (like, &self.ends), &mut observed);
-        if is_automatic && !run.has_kinks() {
-            if matches!(outcome, Outcome::Done) && self.ends.is_empty() {
+        if is_automatic {
+            if !run.has_kinks() && matches!(outcome, Outcome::Done) && self.ends.is_empty() {
                 self.ends.clone_from(&motion.ends);
             }
             observed.motion = Some(motion);
