@@ -147,6 +147,11 @@ impl RefinableParts {
         pairs.map(|(a, b)| a.ratio(b)).fold(f64::INFINITY, f64::min)
     }
 
+    /// True for lines whose order is to be raised.
+    pub fn raises_order(&self) -> bool {
+        self.parts.iter().all(|part| part.raises_order && part.order.is_some_and(|order| order < CHEAPEST_ORDER))
+    }
+
     /// The power of the length of an element that the error follows.
     pub fn slope(&self) -> f64 {
         self.parts.iter().map(PartMesh::slope).fold(f64::INFINITY, f64::min)

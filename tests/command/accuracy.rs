@@ -97,7 +97,8 @@ fn a_recommended_deck_gives_the_bytes_of_the_run() {
     assert!(text(&none.stderr).contains("--accuracy 1e-3"));
 }
 
-/// Pilot runs on finer meshes keep the long steps of the first. With steps by their own tolerance they took 0.6 of the steps of the run, now 0.2.
+/// Pilot runs on finer meshes keep the long steps of the first. With steps by their own tolerance they took 0.6 of the steps of the run, now 0.2. All runs
+/// take 3290 iterations. They took 4245 with a pilot run for each refinement, and a tolerance that stayed.
 #[test]
 fn pilot_runs_share_long_steps() {
     let folder = tempfile::tempdir().unwrap();
@@ -109,9 +110,12 @@ fn pilot_runs_share_long_steps() {
     let result = result(folder.path());
     let number =
         |path: &str| result.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("{path}: {result}"));
-    assert!(number("/accuracy/pilot_runs") >= 3.0, "{result}");
+    assert!(number("/accuracy/pilot_runs") >= 2.0, "{result}");
     let of_pilots = number("/accuracy/pilot_steps") / number("/accuracy/pilot_runs");
     assert!(of_pilots < 0.4 * number("/counts/steps"), "{of_pilots}");
+    assert!(number("/step_error/tolerance") > number("/step_error/asked"), "later steps are longer: {result}");
+    let others = number("/accuracy/pilot_iterations") + number("/step_error/other_iterations");
+    assert!(others + number("/counts/iterations") < 3600.0, "{result}");
 }
 
 /// The pilot run with the chosen mesh tells the error of the steps, and the one with the mesh before tells that of the mesh. Comparison runs and a

@@ -8,9 +8,14 @@ use study::{CoarserMesh, RefinableParts, is_affordable};
 
 /// Largest number of finer meshes that are tried.
 const MOST_ROUNDS: usize = 6;
-/// Largest number of refinements of a group between two runs, once a rate has been measured and the error is above this multiple of its share.
+/// Largest number of refinements of a group between two runs, if the error is above this multiple of its share and falls at a measured rate, or
+/// if nothing is known of lines of low order.
 const AT_ONCE: i32 = 2;
 const FAR: f64 = 4.0;
+/// The error of a mesh of which nothing is known.
+const UNKNOWN: f64 = 0.1;
+/// A mesh is no worse than the best if its difference to the finest is within this factor.
+const NO_WORSE: f64 = 1.1;
 /// Range of the believed factor between the errors of two meshes, for each refinement. A larger one may be chance.
 const BELIEVED: [f64; 2] = [1.5, 30.0];
 /// Largest gain over the assumed factor that the next mesh is trusted to have. A very coarse mesh, such as a beam of two nodes for a rod that
@@ -39,8 +44,8 @@ struct Search {
     /// The best mesh so far, and its results.
     now: Vec<RefinableParts>,
     observed: PilotRun,
-    /// The previous mesh, the ratio of its error to that of this one, and its results.
-    before: Option<(Vec<RefinableParts>, f64, PilotRun)>,
+    /// The earlier meshes from the coarsest on, each with the ratio of its error to that of the next one, and its results.
+    earlier: Vec<(Vec<RefinableParts>, f64, PilotRun)>,
     /// The estimated errors by group; infinite where nothing is known.
     errors: Vec<f64>,
     /// The difference between the two meshes, and the least factor that was assumed.
@@ -60,7 +65,7 @@ pub fn choose_mesh(pilots: &mut Pilots, base: Vec<RefinableParts>, share: f64, o
         now: base.clone(),
         base,
         observed,
-        before: None,
+        earlier: Vec::new(),
         errors,
         last: None,
         surplus: None,
@@ -127,7 +132,7 @@ impl Search {
         }
         let told = self.compared(pilots, &all);
         let Ok((difference, run)) = told else { return };
-        self.before = Some((all, apart, run));
+        self.earlier.push((all, apart, run));
         self.last = Some((difference, apart));
         if is_whole {
             let each = difference / (apart - 1.0) / self.now.len() as f64;
@@ -163,19 +168,25 @@ impl Search {
     /// # Errors
     /// The run with the finer mesh fails, or differences no longer fall.
     fn refine(&mut self, pilots: &mut Pilots, share: f64) -> Result<bool, String> {
-        let (mut finer, mut expected, mut times) = (self.now.clone(), self.errors.clone(), vec![0_i32; self.now.len()]);
-        let mut assumed = f64::INFINITY;
+        let (mut finer, mut times) = (self.now.clone(), vec![0_i32; self.now.len()]);
+        let even = UNKNOWN / self.now.len() as f64;
+        let mut expected: Vec<f64> =
+            self.errors.iter().map(|error| if error.is_finite() { *error } else { even }).collect();
+        let known: f64 = expected.iter().sum();
         let surplus = self.believed_surplus();
-        while expected.iter().sum::<f64>() > share {
+        while expected.iter().sum::<f64>() > share || self.error().is_infinite() && finer == self.now {
             let is_far = self.surplus.is_some() && expected.iter().sum::<f64>() > FAR * share;
-            let at_once = if is_far { AT_ONCE } else { 1 };
-            let able = (0..finer.len()).filter(|&index| times[index] < at_once && finer[index].finer().is_some());
+            let at_once = |index: usize| {
+                let is_unknown = self.errors[index].is_infinite() && self.now[index].raises_order();
+                if is_far || is_unknown { AT_ONCE } else { 1 }
+            };
+            let able =
+                (0..finer.len()).filter(|&index| times[index] < at_once(index) && finer[index].finer().is_some());
             let Some(index) = able.max_by(|&a, &b| expected[a].total_cmp(&expected[b])) else { break };
             let Some((group, ratio)) = finer[index].finer() else { break };
-            let is_known = expected[index].is_finite();
-            (finer[index], times[index]) = (group, if is_known { times[index] + 1 } else { at_once });
+            finer[index] = group;
+            times[index] += 1;
             expected[index] /= (ratio * surplus).clamp(BELIEVED[0], BELIEVED[1]);
-            assumed = assumed.min(ratio);
         }
         if finer == self.now {
             return Ok(false);
@@ -183,15 +194,13 @@ impl Search {
         if !is_affordable(&finer) {
             return Err("it would have more than 100,000 elements".to_owned());
         }
-        let known = self.error();
-        if known.is_finite() {
-            assumed = (known / expected.iter().sum::<f64>() / surplus).max(BELIEVED[0]);
-        }
+        let assumed = (known / expected.iter().sum::<f64>() / surplus).max(BELIEVED[0]);
         let run = pilots.run(&self.sets(&finer))?;
         let difference = pilots.difference(&run, &self.observed)?;
         if let Some((last, before)) = self.last {
             let measured = 1.0 + last / difference.size * (1.0 - 1.0 / assumed);
             if last < CONVERGES * difference.size && difference.size > share {
+                self.go_back(pilots, &run, difference.size);
                 return Err(format!(
                     "results of finer meshes differ by {} from those of this one, in the {}, and not less than before. Motion that amplifies \
                      small changes, or buckling between elements, may cause this",
@@ -204,21 +213,31 @@ impl Search {
         let most = BELIEVED[1].powi(times.into_iter().max().unwrap_or(1));
         let apart = (assumed * self.believed_surplus()).clamp(BELIEVED[0], most);
         let error = difference.size / (apart - 1.0);
-        let sum: f64 = expected.iter().filter(|error| error.is_finite()).sum();
-        let count = expected.len() as f64;
-        for expected in &mut expected {
-            // Without an expectation the groups share the error evenly.
-            *expected = if sum > 0.0 && expected.is_finite() && known.is_finite() {
-                *expected / sum * error
-            } else {
-                error / count
-            };
-        }
+        let sum: f64 = expected.iter().sum();
+        expected.iter_mut().for_each(|expected| *expected *= error / sum);
         self.worst = difference.of;
         (self.last, self.errors) = (Some((difference.size, assumed)), expected);
         let before = std::mem::replace(&mut self.observed, run);
-        self.before = Some((std::mem::replace(&mut self.now, finer), apart, before));
+        self.earlier.push((std::mem::replace(&mut self.now, finer), apart, before));
         Ok(true)
+    }
+
+    /// Goes back to the coarsest mesh whose results are as near to those of the `finest` as those of the last one, which differ by `difference`.
+    /// No difference between meshes then tells an error that is smaller.
+    fn go_back(&mut self, pilots: &Pilots, finest: &PilotRun, difference: f64) {
+        let least = |run: &PilotRun| {
+            let size = pilots.difference(finest, run).ok()?.size;
+            (size <= NO_WORSE * difference).then_some(size.max(difference))
+        };
+        // No mesh becomes coarser than in the deck.
+        let earlier = std::mem::take(&mut self.earlier).into_iter();
+        let mut allowed = earlier.skip_while(|(mesh, ..)| *mesh != self.base);
+        let no_worse = allowed.find_map(|(mesh, _, run)| Some((least(&run)?, mesh, run)));
+        let mut error = difference;
+        if let Some(chosen) = no_worse {
+            (error, self.now, self.observed) = chosen;
+        }
+        self.errors.fill(error / self.now.len() as f64);
     }
 
     fn conclude(mut self, error: f64, remarks: Vec<String>) -> ChosenMesh {
@@ -234,7 +253,7 @@ impl Search {
     /// A coarser mesh in all groups: the previous one, and in groups that have not changed since the next coarser one. Its results are known if
     /// all groups have changed.
     fn coarser(&mut self) -> Option<(CoarserMesh, Option<PilotRun>)> {
-        let (before, mut apart, run) = self.before.take()?;
+        let (before, mut apart, run) = self.earlier.pop()?;
         let (mut sets, mut run) = (Vec::new(), Some(run));
         for (now, before) in self.now.iter().zip(before) {
             match now.coarser().filter(|_| before == *now) {
