@@ -156,7 +156,8 @@ impl Run<'_> {
         let run = trace.into_kept().with_events(self.recorder.events.met());
         self.pilot = pilot;
         if let Some(predicted) = predicted.filter(|_| !matches!(outcome, Outcome::Io(_))) {
-            let longest = self.pilot.iter().chain([&run]).map(Kept::longest).fold(0.0, f64::max);
+            // Steps may become longer after the part of the run so far. Those of pilot runs may be twice as long as those of runs.
+            let longest = self.pilot.iter().map(|pilot| 0.5 * pilot.longest()).fold(run.longest(), f64::max);
             let shorter = (control.error.in_place_of(predicted), longest);
             let begun = self.begin_shorter(shorter, control, observer);
             control.error.early += 1;

@@ -538,6 +538,10 @@ pub mod trace {
     pub const MOST_NODES: usize = 20_000;
     /// Errors of steps add up to less than their sum: they fall at least with this power of it.
     pub const SLOPE: f64 = 0.8;
+    /// Ratio of the sums above which the longer steps do not resolve all that the shorter ones do, and errors fall with this larger power: in
+    /// the models B1, C1 and C2 with 0.9 to 1.05 over ratios of 200 to 12,000, in B2 with 0.8.
+    pub const FAR: f64 = 30.0;
+    pub const FAR_SLOPE: f64 = 0.95;
     /// Number of step ends with reserved memory; unused memory costs nothing.
     pub const USUAL_STEPS: usize = 1 << 16;
     /// Largest ratio of the errors of two runs with events: steps twice as long, with errors of first order.

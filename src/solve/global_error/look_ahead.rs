@@ -4,11 +4,11 @@
 //! the end follows from its growth. A run whose error will be too large ends early. If its error will be far below the one asked for,
 //! the tolerance of the rest of the run rises.
 
-use super::trace::Kept;
+use super::trace::{Kept, ratio_of_errors};
 use crate::control::COMPARISONS;
 use crate::tolerances::global_error::{AIM, WITHIN};
 use crate::tolerances::look_ahead::{FASTEST, FUTILE, MOST, PREDICTED_AT, TELLING, WORTH};
-use crate::tolerances::trace::{SLOPE, TELLING as LEAST_APART};
+use crate::tolerances::trace::TELLING as LEAST_APART;
 use base::snapshot::keep;
 
 /// Predicts the error of a run, and adapts the tolerance of its rest.
@@ -89,7 +89,8 @@ impl<'o> LookAhead<'o> {
             return;
         }
         // Recent steps tell the ratio of the errors that this tolerance makes. Their error may grow faster yet.
-        let recent = (self.pilot.rate_of_errors(self.looked, end) / run.rate_of_errors(self.looked, end)).powf(SLOPE);
+        let recent =
+            ratio_of_errors(self.pilot.rate_of_errors(self.looked, end) / run.rate_of_errors(self.looked, end));
         self.looked = end;
         let of_pilot = error * apart * past.powf(-growth - 1.0);
         let factor = (AIM * self.asked / of_pilot - past / apart) / (1.0 - past) * recent;

@@ -3,7 +3,7 @@
 use super::look_ahead::LookAhead;
 use crate::control::{COMPARISONS, comparison_time};
 use crate::frame::{Frame, Observer};
-use crate::tolerances::trace::{EVENTFUL, FEWEST, MOST_NODES, SLOPE, TELLING, USUAL_STEPS};
+use crate::tolerances::trace::{EVENTFUL, FAR, FAR_SLOPE, FEWEST, MOST_NODES, SLOPE, TELLING, USUAL_STEPS};
 use base::math::Vec3;
 use base::snapshot::{Keep, Snapshot, keep};
 use model::Model;
@@ -195,7 +195,7 @@ impl Kept {
     pub(super) fn steps_apart_from(&self, ends: &[f64]) -> f64 {
         let [own, theirs] =
             [(&self.ends[..], ends), (ends, &self.ends[..])].map(|(run, than)| own_steps(run, than, self.power));
-        if own.left > 0.0 { (theirs.left / own.left).powf(SLOPE) } else { 1.0 }
+        if own.left > 0.0 { ratio_of_errors(theirs.left / own.left) } else { 1.0 }
     }
 
     /// The rate at which errors arise between two times: the mean of a power of the step.
@@ -312,6 +312,12 @@ fn own_steps(ends: &[f64], other: &[f64], power: i32) -> OwnSteps {
         }
     }
     own
+}
+
+/// The ratio of the errors of two runs whose errors of steps have sums in this ratio.
+pub(super) fn ratio_of_errors(sums: f64) -> f64 {
+    let near = sums.min(FAR);
+    near.powf(SLOPE) * (sums / near).powf(FAR_SLOPE)
 }
 
 /// Steps that the other run does not share: their number, and the sum of this power of their lengths.
