@@ -10,7 +10,9 @@ use super::recorder::Recorder;
 use super::run::{Run, SingleRun};
 use super::stop_watch::StopWatch;
 use super::warning::Warnings;
-use crate::tolerances::global_error::{EARLY, FEW, IN_TIME, LOOSER, MOST_EARLY, MOST_LONGER, MOST_RUNS, STRICTER};
+use crate::tolerances::global_error::{
+    EARLY, FAR_APART, FEW, IN_TIME, LOOSER, MOST_EARLY, MOST_LONGER, MOST_RUNS, STRICTER, WITHIN,
+};
 use base::snapshot::{Keep, keep, keep_either};
 use mechanics::state::State;
 use model::StepLength;
@@ -45,6 +47,14 @@ impl GlobalErrorControl {
     /// True if a pilot run tells the error of the current run: no whole run came before, and the times of comparison are the same.
     fn is_told_by(&self, pilot: &Kept) -> bool {
         self.error.others == self.error.early && pilot.is_whole() && pilot.between == self.between
+    }
+
+    /// True if a pilot run shows that the error of the complete run is small enough, or its steps are near enough to tell how large it is. A
+    /// comparison run costs less than a further run.
+    fn is_judged_by(&self, pilot: &Kept, extent: f64) -> bool {
+        let apart = self.judged.run.apart(pilot);
+        let estimate = self.judged.run.difference(pilot, extent) / (apart - 1.0);
+        apart < FAR_APART || estimate <= WITHIN * self.error.asked
     }
 }
 
@@ -183,7 +193,8 @@ impl Run<'_> {
         }
         control.judged.run = run;
         control.judged.state.clone_from(state);
-        let pilot = self.pilot.take().filter(|pilot| control.is_told_by(pilot));
+        let length = self.context.length;
+        let pilot = self.pilot.take().filter(|pilot| control.is_told_by(pilot) && control.is_judged_by(pilot, length));
         let other = control.before.take().map(|before| (OtherRun::Before as TellOther, before));
         let other = other.or(pilot.map(|pilot| (OtherRun::Pilot as TellOther, pilot)));
         match other.filter(|(_, other)| control.judged.run.is_told_by(other)) {

@@ -527,7 +527,7 @@ pub mod global_error {
     pub const LOST: f64 = 0.03;
     /// The difference of two runs that have nothing in common, relative to the motion.
     pub const SATURATED: f64 = 0.3;
-    /// Ratio of the errors of two runs above which their difference tells the error even if it is saturated.
+    /// Ratio of the errors of a pilot run and a run above which a comparison run tells the error better.
     pub const FAR_APART: f64 = 30.0;
     /// Ratio of the tolerances of the first run and a pilot run with events: steps about two thirds as long.
     pub const STRICTER: f64 = 0.3;

@@ -6,7 +6,7 @@
 
 use super::trace::{Kept, ratio_of_errors};
 use crate::control::COMPARISONS;
-use crate::tolerances::global_error::{AIM, WITHIN};
+use crate::tolerances::global_error::{AIM, FAR_APART, WITHIN};
 use crate::tolerances::look_ahead::{FASTEST, FUTILE, MOST, PREDICTED_AT, TELLING, WORTH};
 use crate::tolerances::trace::TELLING as LEAST_APART;
 use base::snapshot::keep;
@@ -81,8 +81,8 @@ impl<'o> LookAhead<'o> {
         let growth = (difference / before).log(longer).clamp(0.0, FASTEST);
         let error = difference / (apart - 1.0);
         let predicted = error * past.powf(-growth);
-        // The root mean square over all times is at least this part of that so far.
-        let is_lost = error * past.sqrt() > WITHIN * self.asked;
+        // The root mean square over all times is at least this part of that so far. A comparison run will judge a run far from the pilot run.
+        let is_lost = apart < FAR_APART && error * past.sqrt() > WITHIN * self.asked;
         let is_futile = run.times == PREDICTED_AT && predicted > FUTILE * self.asked;
         if self.may_end && (is_lost || is_futile) {
             self.predicted = Some(predicted);

@@ -8,7 +8,7 @@
 mod look_ahead;
 mod trace;
 
-use crate::tolerances::global_error::{AIM, CHANGE, FAR_APART, LOST, SATURATED, WITHIN};
+use crate::tolerances::global_error::{AIM, CHANGE, LOST, SATURATED, WITHIN};
 pub use look_ahead::LookAhead;
 pub use trace::{Kept, Trace, Unseen};
 
@@ -100,9 +100,7 @@ impl StepError {
         // Two runs with nothing in common hardly show how much shorter steps must be; several such runs show that no length suffices.
         let lost = difference > SATURATED;
         let hopeless = lost && self.others > 2 && before.is_some_and(|before| estimate > 0.5 * before);
-        // Runs with very different steps tell the error of the better run even so.
-        let is_unknown = lost && self.apart < FAR_APART;
-        let tolerance = if is_unknown { LOST * self.tolerance } else { self.in_place_of(estimate) };
+        let tolerance = if lost { LOST * self.tolerance } else { self.in_place_of(estimate) };
         ((!nears || estimate > WITHIN * self.asked) && !hopeless).then_some(tolerance)
     }
 
