@@ -108,8 +108,10 @@ def timed(deck: Path, sets: list[str], folder: Path) -> tuple[scenes.Run, float]
     return done, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def motion(name: str, asked: float, scheme: str) -> tuple[float, dict, float]:
+def motion(name: str, asked: float, scheme: str | None) -> tuple[float, dict, float]:
+    """A run by the scheme that automatic steps choose where a deck has none, or by another."""
     scene = SCENES[name]
+    scheme = scheme or ("esdirk3" if scene.beams else "runge-kutta")
     sets = [f"analysis.accuracy={asked}", 'analysis.time_step="auto"', f'integrator={{scheme="{scheme}"}}', "expect=[]"]
     sets += ["output.energy=false", *scene.mesh(1, 3 if name == "C4" else 2)]
     with tempfile.TemporaryDirectory() as folder:
@@ -148,7 +150,7 @@ def line(name: str, asked: float, error: float, report: dict, seconds: float) ->
     )
 
 
-def table(names: list[str], scheme: str) -> None:
+def table(names: list[str], scheme: str | None) -> None:
     print("| scene | asked | reached | reached / asked | mesh, estimated | steps, estimated | chosen | pilots | iterations: pilots, steps, mesh, last | s | over best fixed |")
     print("|---|---|---|---|---|---|---|---|---|---|---|")
     exact: dict[str, History] = {}
@@ -168,7 +170,7 @@ def table(names: list[str], scheme: str) -> None:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("scenes", nargs="*", default=[*MOTIONS, *COMPARED], metavar="SCENE")
-    parser.add_argument("--scheme", default="esdirk3")
+    parser.add_argument("--scheme", help="instead of the one that automatic steps choose")
     parser.add_argument("--program", type=Path, help="instead of a new build")
     asked = parser.parse_args()
     if asked.program:

@@ -166,7 +166,7 @@ impl Run<'_> {
         let run = trace.into_kept().with_events(self.recorder.events.met());
         self.pilot = pilot;
         if let Some(predicted) = predicted.filter(|_| !matches!(outcome, Outcome::Io(_))) {
-            // Steps may become longer after the part of the run so far. Those of pilot runs may be twice as long as those of runs.
+            // Later steps may be longer than those so far. Pilot runs may have steps twice as long as this run.
             let longest = self.pilot.iter().map(|pilot| 0.5 * pilot.longest()).fold(run.longest(), f64::max);
             let shorter = (control.error.in_place_of(predicted), longest);
             let begun = self.begin_shorter(shorter, control, observer);

@@ -538,8 +538,8 @@ pub mod trace {
     pub const MOST_NODES: usize = 20_000;
     /// Errors of steps add up to less than their sum: they fall at least with this power of it.
     pub const SLOPE: f64 = 0.8;
-    /// Ratio of the sums above which the longer steps do not resolve all that the shorter ones do, and errors fall with this larger power: in
-    /// the models B1, C1 and C2 with 0.9 to 1.05 over ratios of 200 to 12,000, in B2 with 0.8.
+    /// Errors fall with a larger power where this ratio of the sums is exceeded, because the longer steps do not resolve all of the motion. The power
+    /// is 0.9 to 1.05 in the models B1, C1 and C2, over ratios of 200 to 12,000, and 0.8 in B2.
     pub const FAR: f64 = 30.0;
     pub const FAR_SLOPE: f64 = 0.95;
     /// Number of step ends with reserved memory; unused memory costs nothing.
@@ -557,8 +557,8 @@ pub mod look_ahead {
     pub const PREDICTED_AT: usize = 4;
     /// Predicted error, as a multiple of the error asked for, that ends a run early. Predictions err by a factor of two.
     pub const FUTILE: f64 = 2.0;
-    /// Largest power of time that errors are believed to follow: errors of velocities become errors of positions, and grow as they do in motion
-    /// that speeds up.
+    /// Largest power of time that errors are believed to follow. Errors of velocities become errors of positions, and grow faster yet while the
+    /// motion speeds up.
     pub const FASTEST: f64 = 2.5;
     /// Least factor between two tolerances that is worth the matrix of another step.
     pub const WORTH: f64 = 1.5;

@@ -8,11 +8,11 @@ use study::{CoarserMesh, RefinableParts, is_affordable};
 
 /// Largest number of finer meshes that are tried.
 const MOST_ROUNDS: usize = 6;
-/// Largest number of refinements of a group between two runs, if the error is above this multiple of its share and falls at a measured rate, or
-/// if nothing is known of lines of low order.
+/// Largest number of refinements of a group between two runs. The error exceeds this multiple of its share and falls at a measured rate, or no error
+/// of lines of low order is known.
 const AT_ONCE: i32 = 2;
 const FAR: f64 = 4.0;
-/// The error of a mesh of which nothing is known.
+/// The assumed error of a mesh without any comparison.
 const UNKNOWN: f64 = 0.1;
 /// A mesh is no worse than the best if its difference to the finest is within this factor.
 const NO_WORSE: f64 = 1.1;
@@ -222,8 +222,8 @@ impl Search {
         Ok(true)
     }
 
-    /// Goes back to the coarsest mesh whose results are as near to those of the `finest` as those of the last one, which differ by `difference`.
-    /// No difference between meshes then tells an error that is smaller.
+    /// Goes back to the coarsest mesh that differs no more from the `finest` than the last one does, by `difference`. This difference is then the
+    /// estimated error.
     fn go_back(&mut self, pilots: &Pilots, finest: &PilotRun, difference: f64) {
         let least = |run: &PilotRun| {
             let size = pilots.difference(finest, run).ok()?.size;

@@ -1,6 +1,6 @@
 //! The error of a run under way, from its difference to a pilot run with longer steps.
 //!
-//! The difference D of both runs gives the error E = D/(a - 1) of the run so far, where a is the ratio of both errors by the steps. The error at
+//! The steps give the ratio a of the errors of both runs. Their difference D then gives the error E = D/(a - 1) of the run so far. The error at
 //! the end follows from its growth. A run whose error will be too large ends early. If its error will be far below the one asked for,
 //! the tolerance of the rest of the run rises.
 

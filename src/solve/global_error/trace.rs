@@ -49,7 +49,7 @@ impl<'o> Trace<'o> {
         Trace { observer, kept: Kept { power: power as i32, between, ..Kept::default() }, ahead: None }
     }
 
-    /// The trace of a run whose tolerance follows its difference to a pilot run, and which ends early if the predicted error is too large.
+    /// The trace of a run with a pilot run. The tolerance follows their difference, and the run ends early if the predicted error is too large.
     pub fn looking_ahead(self, ahead: Option<LookAhead<'o>>) -> Self {
         Trace { ahead, ..self }
     }
@@ -198,7 +198,7 @@ impl Kept {
         if own.left > 0.0 { ratio_of_errors(theirs.left / own.left) } else { 1.0 }
     }
 
-    /// The rate at which errors arise between two times: the mean of a power of the step.
+    /// The errors of steps per unit of time between two times: the mean of a power of the step.
     pub(super) fn rate_of_errors(&self, from: f64, to: f64) -> f64 {
         let [first, last] = [from, to].map(|time| self.ends.partition_point(|end| *end <= time + 1e-9 * to.abs()));
         let steps = &self.ends[first.saturating_sub(1)..(last + 1).min(self.ends.len())];
