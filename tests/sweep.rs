@@ -470,7 +470,10 @@ fn warnings_of_cases_are_listed() {
         let output = rdsolve(folder, &["sweep", "s.toml", "-o", out]);
         let (said, told) = (text(&output.stderr), text(&output.stdout));
         assert!(output.status.success() && told.starts_with("3 cases: 3 done, warnings in 2; "), "{told}{said}");
-        assert!(said.lines().count() == 1 && said.starts_with("warning: cases 2, 3: numerical dissipation: "), "{said}");
+        assert!(
+            said.lines().count() == 1 && said.starts_with("warning: cases 2, 3: numerical dissipation: "),
+            "{said}"
+        );
         assert!(text(&rdsolve(folder, &["sweep", "s.toml", "-o", out, "--quiet"]).stderr).is_empty());
         let summary = rows(folder, &format!("{out}/summary.csv"));
         let place = summary[0].iter().position(|column| column == "warnings").unwrap();

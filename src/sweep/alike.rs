@@ -29,7 +29,8 @@ pub fn alike<'t>(texts: impl Iterator<Item = (usize, &'t str)>) -> Vec<Alike<'t>
 
 /// A text with `#` for each number outside of words, signs and exponents included.
 fn without_numbers(text: &str) -> String {
-    let is_number = |word: &str| word.starts_with(|c: char| c.is_ascii_digit() || c == '.') && word.parse::<f64>().is_ok();
+    let is_number =
+        |word: &str| word.starts_with(|c: char| c.is_ascii_digit() || c == '.') && word.parse::<f64>().is_ok();
     let is_end = |c: char| !(c.is_alphanumeric() || ['.', '_', '+', '-'].contains(&c));
     let parts = text.split_inclusive(is_end).map(|part| {
         let word = part.trim_end_matches(is_end).trim_start_matches(['+', '-']);

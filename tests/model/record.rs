@@ -386,7 +386,9 @@ fn times_are_in_the_unit_that_is_asked_for() {
 /// The header of CSMIP names the unit in several ways.
 #[test]
 fn headers_of_csmip_name_their_unit() {
-    for unit in ["in cm/sec2", "(UNITS: CM/SEC/SEC)", "(units: cm/sec2).", "approx 5 secs, units=cm/sec2(04),Format=(8F10.3)"] {
+    for unit in
+        ["in cm/sec2", "(UNITS: CM/SEC/SEC)", "(units: cm/sec2).", "approx 5 secs, units=cm/sec2(04),Format=(8F10.3)"]
+    {
         let text = format!("  3 POINTS OF ACCEL DATA EQUALLY SPACED AT   .020 SEC. {unit}\n  1.0 2.0 3.0\n");
         let found = read("r", text.as_bytes(), &select(&[], None)).unwrap();
         assert_eq!(found.points, [[0.0, 1.0], [0.02, 2.0], [0.04, 3.0]], "{unit}");

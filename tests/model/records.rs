@@ -294,7 +294,8 @@ fn units_of_records_are_compared_with_the_deck() {
         )
     };
     let (si, mm) = ("units = \"SI\"\n", "units = \"mm-t-s\"\n");
-    let bare = |peak: f64| (0..=400).map(|k| format!("{:.6},{:.6}\n", 0.005 * k as f64, peak * pulse(k))).collect::<String>();
+    let bare =
+        |peak: f64| (0..=400).map(|k| format!("{:.6},{:.6}\n", 0.005 * k as f64, peak * pulse(k))).collect::<String>();
     // The peak of the pulse is 0.585.
     let [weak, strong] = [bare(1.0), bare(100.0)];
     let scaled = SHAKEN.replace("\"quake\" }", "\"quake\", scale = 9.81 }");

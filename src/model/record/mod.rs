@@ -122,8 +122,17 @@ fn read_columns(
     unit: Option<RecordUnit>,
 ) -> Result<TimeSeries, Vec<Fault>> {
     text.skip_to(last);
-    let mut reader =
-        Reader { text, separator: None, faults: Vec::new(), columns: 0, last, blank: 0, jumps: None, unit: None, seconds: None };
+    let mut reader = Reader {
+        text,
+        separator: None,
+        faults: Vec::new(),
+        columns: 0,
+        last,
+        blank: 0,
+        jumps: None,
+        unit: None,
+        seconds: None,
+    };
     let mut points = reader.points(selection);
     if reader.faults.is_empty() {
         if let Some((seconds, wanted)) = reader.seconds.zip(selection.time_unit).filter(|(own, wanted)| own != wanted) {
@@ -181,7 +190,8 @@ impl<'t> Reader<'t> {
         if !names.is_empty() && names.len() != count {
             let message = format!("the line of names has {} columns, that of numbers {count}", names.len());
             let fault = self.text.fault(message, line.number);
-            let hint = "give each column one name, or none; `rows = true` with `time_step` reads all values along the lines";
+            let hint =
+                "give each column one name, or none; `rows = true` with `time_step` reads all values along the lines";
             self.faults.push(Box::new(fault.hint(hint)));
             return Vec::new();
         }
