@@ -33,7 +33,7 @@ impl CaseState {
     }
 }
 
-/// What became of a case: its state, and the warnings of its run.
+/// The outcome of a case: its state, and the warnings of its run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CaseOutcome {
     /// Its state.

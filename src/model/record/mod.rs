@@ -376,7 +376,7 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// What a name ends with in brackets, such as "Acc (g)" or "a [m/s^2]", or the name itself.
+/// The end of a name in brackets, as in "Acc (g)" or "a [m/s^2]", or the name itself.
 fn inner_name(name: &str) -> Option<&str> {
     Some(name.rsplit(['(', '[']).next()?.trim_matches([')', ']', ' ']))
 }
