@@ -145,6 +145,9 @@ impl Recorder {
         let mut energy = sums.then(|| sum(None));
         self.initial_energy = energy.map(|energy| energy.mechanical);
         self.growth.begin(Balance::default(), state.time);
+        if !sums {
+            self.growth.begin_without_balance((cx.model, cx.plan, cx.system), state);
+        }
         if let Some(Handover { counts, missed, .. }) = handover {
             (self.counts, self.before) = (*counts, *counts);
             let balance = Balance::after(*missed + state.work.verlet_energy_offset, state.work.external);

@@ -58,9 +58,53 @@ fn a_motion_that_grows_without_end_fails_and_shorter_steps_or_dissipation_mend_i
     }
 }
 
-/// The verdict needs energies: without them the run says that they were not measured.
+/// A motion that automatic steps have lost is computed again with shorter ones. A mass on a spring of ω = 6.3 carries a millionth of it on a spring
+/// of ω = 1000, and steps that suit the first are ten times too long for the second, which grows beyond ten times the energy that there was.
 #[test]
-fn without_energies_the_run_says_that_nothing_was_measured() {
-    let (code, said, out) = run(&oscillator(UNSTABLE, 5e-3, "[output]\nenergy = false\n"));
+fn automatic_steps_that_lose_a_motion_are_shortened() {
+    let link = |name: &str, ends: &str, stiffness: f64| {
+        format!("[[links]]\nname = \"{name}\"\n{ends}\nstiffness = {stiffness:?}\n")
+    };
+    let deck = format!(
+        "analysis = {{ kind = \"dynamic\", end_time = 1.0, time_step = \"auto\", error_tolerance = 0.5 }}\n\
+             integrator = {{ scheme = \"newmark\", beta = 0.1 }}\npoints = {{ p = [1.0, 0.0, 0.0], q = [2.0, 0.0, 0.0] }}\n\
+             masses = [{{ at = \"p\", mass = 1.0 }}, {{ at = \"q\", mass = 1e-6 }}]\n\
+             supports = [{{ at = [\"p\", \"q\"], fix = [\"uy\", \"uz\"] }}]\n\
+             initial = [{{ at = [\"p\", \"q\"], velocity = [1.0, 0.0, 0.0] }}]\n\
+             [[expect]]\nat = \"p\"\nquantity = \"ux\"\ntime = 1.0\nvalue = {:?}\nabsolute_tolerance = 0.01\n{}{}",
+        // The first mass alone: the amplitude is 0.158.
+        40.0_f64.sqrt().sin() / 40.0_f64.sqrt(),
+        link("soft", "from = { ground = [0.0, 0.0, 0.0] }\nto = { node = \"p\" }", 40.0),
+        link("stiff", "from = { node = \"p\" }\nto = { node = \"q\" }", 1.0)
+    );
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("deck.toml"), deck).unwrap();
+    let mut command = Command::cargo_bin("rdsolve").unwrap();
+    let done = command.current_dir(folder.path()).args(["run", "deck.toml"]).output().unwrap();
+    let said = String::from_utf8_lossy(&done.stderr).into_owned();
+    assert_eq!(done.status.code(), Some(0), "{said}");
+    let log = std::fs::read_to_string(folder.path().join("deck.out/run.log")).unwrap();
+    assert!(log.contains("the run begins again at t = 0, with shorter steps"), "{log}");
+}
+
+/// Without energies the kinetic energy at the end alone is compared with the most that there can be: that of the start and of a weight. With a
+/// load whose work nobody has summed the run says that nothing was measured.
+#[test]
+fn without_energies_a_lost_motion_fails_where_its_energy_is_known() {
+    let output = "[output]\nenergy = false\n";
+    let gravity = "[environment]\ngravity = [9.81, 0.0, 0.0]\n";
+    for more in ["", gravity] {
+        let (code, said, _) = run(&oscillator(UNSTABLE, 5e-3, &format!("{output}{more}")));
+        assert!(code == 4 && said.contains("the motion is lost"), "{said}");
+        let (code, said, _) = run(&oscillator("scheme = \"newmark\"", 5e-4, &format!("{output}{more}")));
+        assert!(code == 0 && said.is_empty(), "{said}");
+    }
+    // A fall from rest has no energy at the start; its kinetic energy is the bound, not ten times that.
+    let fall = oscillator("scheme = \"newmark\"", 5e-4, &format!("{output}{gravity}"));
+    let fall = fall.replace("stiffness = 1e6", "stiffness = 0.0").replace("velocity = [1.0", "velocity = [0.0");
+    let (code, said, _) = run(&fall);
+    assert_eq!(code, 0, "{said}");
+    let loaded = format!("{output}[[loads]]\nat = \"p\"\nforce = [1.0, 0.0, 0.0]\n");
+    let (code, said, out) = run(&oscillator(UNSTABLE, 5e-3, &loaded));
     assert!(code == 0 && out.contains("not measured, because `energy` in [output] is false"), "{said}{out}");
 }
