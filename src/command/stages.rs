@@ -5,7 +5,10 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use super::load::{Loaded, model_stage};
-use super::verdict::{energy_line, energy_warning, overshoot_warning, ringing_warning, short_of_stop, work_warning};
+use super::verdict::{
+    energy_line, energy_warning, overshoot_warning, rest_warning, ringing_warning, rows_warning, short_of_stop,
+    work_warning,
+};
 use super::watchers::{Watchers, stage_begins};
 use base::names::{instant, to_digits};
 use base::snapshot::{Keep, Snapshot, keep};
@@ -117,12 +120,14 @@ impl StagesTold {
             return;
         }
         let effort = run.counts().since(&self.counts);
-        let of_run = energy_warning(run.balance(), model).into_iter().chain(work_warning(run));
+        let at_rest = rest_warning(run.balance(), model).filter(|_| stage.is_empty());
+        let of_run = energy_warning(run.balance(), model).into_iter().chain(at_rest).chain(work_warning(run));
         let of_stage = stop_missed(run, model)
             .into_iter()
             .chain(left_held(run, model, end_time))
             .chain(weight_left(run, model, end_time));
-        let of_run = of_run.chain(ringing_warning(effort, model)).chain(overshoot_warning(run));
+        let of_run =
+            of_run.chain(ringing_warning(effort, model)).chain(overshoot_warning(run)).chain(rows_warning(run, model));
         self.warnings.extend(of_run.chain(of_stage).map(|text| format!("{stage}{text}")));
         self.energy.extend(energy_line(run.balance(), model).map(|line| format!("{stage}{line}")));
         self.counts = run.counts();

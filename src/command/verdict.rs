@@ -147,12 +147,42 @@ pub fn overshoot_warning(run: &Run) -> Option<String> {
     })
 }
 
-/// True where gravity acts from t = 0 on with nothing before, on parts that deform.
+/// The warning about rows of tables that are too far apart for the motion.
+pub fn rows_warning(run: &Run, model: &Model) -> Option<String> {
+    /// Rows of a period that show its peak within 1.2 %.
+    const ROWS: f64 = 20.0;
+    run.row_gap().map(|gap| {
+        let label = &model.nodes[gap.node].label;
+        let [amplitude, share, period] = [gap.amplitude, 100.0 * gap.share, gap.period].map(|number| to_digits(number, 2));
+        format!(
+            "the rows of tables are too far apart for `{label}`: between them it moves by about {amplitude}, {share} % of its whole motion, with a \
+             period near {period}. Peaks in tables are too small. Give `interval` = {} in `[output]`, or `every` = 1",
+            to_digits(gap.period / ROWS, 1)
+        )
+    })
+}
+
+/// The warning about a run without any load or motion.
+pub fn rest_warning(balance: &Balance, model: &Model) -> Option<String> {
+    let is_summed = match model.analysis.kind {
+        AnalysisKind::Static => !model.analysis.is_linear(),
+        AnalysisKind::Dynamic => model.output.energy,
+        _ => false,
+    };
+    (is_summed && balance.peak == 0.0).then(|| {
+        "nothing moves: no load, weight, motion or initial velocity acts on a part that can follow. Give `[[loads]]`, `gravity` in `[environment]`, \
+         or `[[initial]]`"
+            .to_owned()
+    })
+}
+
+/// True where gravity acts at once at t = 0 on supported deformable parts.
 fn weighs_at_once(model: &Model) -> bool {
     let loading = &model.loading;
     let at_start = loading.gravity_amplitude.map_or(1.0, |index| loading.amplitudes[index].value(0.0));
     let deforms = model.parts.iter().any(|part| part.kind().is_deformable());
-    model.analysis.begin == 0.0 && at_start * loading.gravity.norm() != 0.0 && deforms
+    let is_held = !model.constraints.restraints.is_empty();
+    model.analysis.begin == 0.0 && at_start * loading.gravity.norm() != 0.0 && deforms && is_held
 }
 
 /// The warning about a bad energy balance; `None` if it is good.
@@ -179,6 +209,10 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
         ),
         None => format!("Give {shorter}; `numerical` in energy.csv shows the effect"),
     };
+    let remedy = match weighs_at_once(model) {
+        true => format!("{remedy}. Gravity acts at once at t = 0: bring it on in a static stage before the motion"),
+        false => remedy,
+    };
     if balance.generated > SEEN * balance.peak.max(unseen) {
         let part = part(balance.generated);
         // Plastic work is booked with the stress at the end of a step, which the motion meets only then. It is the plastic
@@ -189,13 +223,9 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
                  strains are too large. {remedy}"
             )
         } else if balance.is_work_of_dampers(balance.generated) {
-            let weight = match weighs_at_once(model) {
-                true => ". Gravity acts at once at t = 0: bring it on in a static stage before the motion",
-                false => "",
-            };
             format!(
                 "dampers have dissipated more energy than was available, by {part}: steps are too long to sum their work, or the time integration \
-                 adds energy that they dissipate. {remedy}{weight}"
+                 adds energy that they dissipate. {remedy}"
             )
         } else {
             format!("energy growth: the time integration has added {part}. {remedy}")

@@ -41,10 +41,12 @@ use super::places::nodes::{Nodes, Topology};
 use super::plausibility::all_held::check_all_held;
 use super::plausibility::amplitude_ends::check_amplitude_ends;
 use super::plausibility::angles::check_angles;
+use super::plausibility::loose::check_loose;
 use super::plausibility::node_places::place_nodes;
 use super::plausibility::proportions::check_proportions;
 use super::plausibility::scaled_loads::check_scaled_loads;
 use super::plausibility::slivers::check_slivers;
+use super::plausibility::sudden_weight::check_sudden_weight;
 use super::plausibility::ties::Ties;
 use super::plausibility::units::check_units;
 use super::plausibility::unjoined::check_unjoined;
@@ -246,6 +248,9 @@ fn build(deck: &Deck, files: Files) -> (Option<Model>, Vec<Diagnostic>) {
     }
     let model = model(deck, None, files, &mut report);
     let sound = !report.has_errors();
+    if sound {
+        check_loose(&model, &mut report);
+    }
     (sound.then_some(model), merge_diagnostics(report.into_problems()))
 }
 
@@ -498,6 +503,7 @@ fn check(
     }
     check_units(deck, report);
     check_angles(deck, report);
+    check_sudden_weight(deck, report);
     mesh
 }
 

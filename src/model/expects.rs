@@ -94,7 +94,11 @@ impl<'d> Expects<'_, 'd> {
                 (at, reaction.filter(|_| !columns.iter().any(|of| of.name == quantity.value)))
             {
                 let message = format!("`{}` has no support in {}, so it has no reaction", name.value, DIRECTIONS[dof]);
-                return self.report.error_with(&quantity.span, message, "reactions are those of `[[supports]]`");
+                let hint = match self.scene.deck.stages.is_empty() {
+                    true => "reactions are those of `[[supports]]`",
+                    false => "reactions are those of `[[supports]]`: give `stage`, the name of one with such a support",
+                };
+                return self.report.error_with(&quantity.span, message, hint);
             }
             column = self.column(columns, quantity, name);
         }

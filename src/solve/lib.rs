@@ -33,6 +33,7 @@ mod outcome;
 pub mod plan;
 mod recorder;
 mod report;
+mod row_gaps;
 mod run;
 mod sample;
 mod slip_watch;

@@ -10,6 +10,7 @@ use super::frame::{Frame, Observer, ShownCase};
 use super::handover::Handover;
 use super::outcome::{Counts, Outcome};
 use super::report::StepReport;
+use super::row_gaps::RowGaps;
 use super::sample::Sample;
 use super::workspace::Workspace;
 use crate::guards::breakage::Breakage;
@@ -49,6 +50,8 @@ pub struct Recorder {
     /// The energy that parts failed before the current step had stored.
     pub eroded: f64,
     derived: Derived,
+    /// The motions that rows show.
+    pub row_gaps: RowGaps,
     tables: Pace,
     fields: Pace,
     /// True if tables were due inside the current step.
@@ -59,6 +62,7 @@ pub struct Recorder {
 
 keep!(Recorder {
     counts, before, is_comparison, most_steps, growth, initial_energy, breakage, events, eroded, tables, fields, looked_inside, pending, derived,
+    row_gaps,
 } without { wanted, observing });
 
 /// The progress of a cadence.
@@ -128,6 +132,7 @@ impl Recorder {
             events: Events::default(),
             eroded: 0.0,
             derived: Derived::new(model),
+            row_gaps: RowGaps::new(model),
             tables: Pace::default(),
             fields: Pace::default(),
             looked_inside: false,
@@ -241,6 +246,7 @@ impl Recorder {
         self.derived.broken.extend_from_slice(self.breakage.new_ones());
         observer.on_step(&self.frame(cx, ws, state, step, [due, drawn])).map_err(Outcome::Io)?;
         if due {
+            self.row_gaps.look(state.time, &state.nodes);
             self.derived.effort = Effort::default();
         }
         if let Some(began) = began {
@@ -312,6 +318,7 @@ impl Recorder {
         let frame = self.frame(cx, ws, state, step, [due, false]);
         observer.on_step(&Frame { step: frame.step + 1, inside: true, ..frame }).map_err(Outcome::Io)?;
         if due {
+            self.row_gaps.look(state.time, &state.nodes);
             self.derived.effort = Effort::default();
         }
         if let Some(began) = began {

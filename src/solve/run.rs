@@ -13,6 +13,7 @@ use super::modes::{ModesFault, find_damped};
 use super::modes_at_end;
 use super::outcome::{Counts, Outcome};
 use super::recorder::Recorder;
+use super::row_gaps::RowGap;
 use super::sample::Samples;
 use super::start::start;
 use super::start_of_stage::start_stage;
@@ -338,6 +339,11 @@ impl<'a> Run<'a> {
         // In rigid models displacements are convergence errors, and their work is the reference.
         let left = cx.model.solution.iteration.tolerance * cx.length * ws.load_steps.peak.forces.force;
         Some((beyond.copysign(missed), energy.max(works.largest).max(0.5 * works.gross).max(left)))
+    }
+
+    /// The largest motion between the rows of tables, if they are too far apart to follow it.
+    pub fn row_gap(&self) -> Option<RowGap> {
+        self.recorder.row_gaps.largest()
     }
 
     /// The remarks on omitted checks.

@@ -611,6 +611,22 @@ pub mod savings {
     pub const WORTH: f64 = 1.05;
 }
 
+pub mod row_gaps {
+    /// Largest difference between the displacement of two rows and that by their velocities, over the sum of both. A sine with five rows a period
+    /// has 0.07, one with four 0.12 and one with three 0.25. Rows then miss its peaks by up to 0.2, 0.3 and 0.5.
+    pub const STRAIGHT: f64 = 0.1;
+    /// Part of the rows that do so. A blow in one of them is no motion between rows.
+    pub const MOST_UNRESOLVED: f64 = 0.4;
+    /// Amplitude of a motion between rows, over the size of the whole motion, that is seen in tables.
+    pub const SEEN: f64 = 0.03;
+    /// Largest such share; a sine has 0.5. Motions that grow without end have more, and other warnings.
+    pub const MOST: f64 = 2.0;
+    /// Rows in a period that show a motion. Blows beside a motion raise its accelerations alone, and the period then comes out longer.
+    pub const MOST_ROWS: f64 = 5.0;
+    /// Smallest number of rows that are judged.
+    pub const ENOUGH_ROWS: usize = 8;
+}
+
 pub mod explained_quantities {
     /// A sum of loads, or a coordinate of the center of mass, below this part of the largest is rounding: sums of thousands of terms keep 12 digits.
     pub const ROUNDING: f64 = 1e-9;

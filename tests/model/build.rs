@@ -23,6 +23,8 @@ fn everything() -> Model {
         "nothing holds the two together along them",
         "it may pass between them",
         "brakes velocities against the ground",
+        "gravity acts at once as the ground begins to move",
+        "to the parts that supports hold: it falls freely",
     ];
     let other = problems.iter().filter(|problem| !said.iter().any(|said| problem.message.contains(said)));
     let drawn: Vec<String> = other.map(|problem| problem.draw(&source, false)).collect();

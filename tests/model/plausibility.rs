@@ -638,3 +638,98 @@ fn a_bolt_may_be_as_short_as_it_is_thick() {
     is_silent(&bolt("0.04"));
     says(&bolt("0.01"), Severity::Warning, &["the section of beam `bolt` is about", "deep, and the beam is 0.01 long"]);
 }
+
+/// A part that nothing joins to the supported ones falls or stands still; a free scene, a part that flies and one that a load moves are meant.
+#[test]
+fn parts_that_nothing_holds_are_said() {
+    let points = "[points]\na = [0.0, 0.0, 0.0]\nb = [0.0, 0.0, 3.0]\nc = [2.0, 0.0, 0.0]\nd = [2.0, 0.0, 3.0]\n";
+    let two = format!("{points}{}{}", beam("mast", "\"a\", \"b\"", 2), beam("stay", "\"c\", \"d\"", 2));
+    let held = format!("{two}[[supports]]\nat = \"a\"\nfix = \"all\"\n");
+    let gravity = "[environment]\ngravity = [0.0, 0.0, -9.81]\n";
+    says(&held, Severity::Warning, &["nothing joins `stay`", "stands still"]);
+    says(&format!("{held}{gravity}"), Severity::Warning, &["nothing joins `stay`", "falls freely"]);
+    let link = "[[links]]\nname = \"k\"\nfrom = { node = \"b\" }\nto = { node = \"d\" }\nstiffness = 1.0\n";
+    let floor = "[[contacts]]\nname = \"floor\"\nwith = \"stay\"\nstiffness = 1e6\ndamping = 1.0\n\
+                 surface = { shape = \"plane\", point = [0.0, 0.0, -1.0], normal = [0.0, 0.0, 1.0] }\n";
+    let flies = initial("stay", "velocity = [1.0, 0.0, 0.0]");
+    let load = "[[loads]]\nat = \"d\"\nforce = [1.0, 0.0, 0.0]\n";
+    for more in [link, floor, &flies, load] {
+        is_silent_about("nothing joins", &format!("{held}{gravity}{more}"));
+    }
+    // Without any support a fall into the void is none that is meant; without gravity, or with a floor, it may be.
+    says(&format!("{two}{gravity}"), Severity::Warning, &["holds `mast` or any other part", "fall freely"]);
+    for more in [String::new(), format!("{gravity}{floor}"), format!("{gravity}{flies}")] {
+        is_silent_about("fall freely", &format!("{two}{more}"));
+    }
+}
+
+/// A weight that acts at once sags to twice its deflection at rest as the ground begins to move. A static stage before, an amplitude or no
+/// moving ground are no such slip.
+#[test]
+fn a_weight_at_once_under_a_moving_ground_is_said() {
+    let quake = "[amplitudes.quake]\nkind = \"table\"\npoints = [[0.0, 0.0], [0.5, 1.0], [1.0, 0.0]]\n\
+                 [[environment.base_acceleration]]\ndirection = [1.0, 0.0, 0.0]\namplitude = \"quake\"\n";
+    let mast = format!(
+        "[points]\na = [0.0, 0.0, 0.0]\nb = [0.0, 0.0, 3.0]\n{}[[supports]]\nat = \"a\"\nfix = \"all\"\n",
+        beam("mast", "\"a\", \"b\"", 2)
+    );
+    let weight = "[environment]\ngravity = [0.0, 0.0, -9.81]\n";
+    says(&format!("{mast}{weight}{quake}"), Severity::Warning, &["gravity acts at once", "sags to twice"]);
+    let grown = format!("{weight}gravity_amplitude = \"rise\"\n{quake}[amplitudes.rise]\nkind = \"ramp\"\nend = 0.5\n");
+    for more in [grown, weight.to_owned(), format!("[environment]\n{quake}")] {
+        is_silent_about("gravity acts at once", &format!("{mast}{more}"));
+    }
+}
+
+/// Where nothing acts, all results are zero, and the run says so.
+#[test]
+fn a_run_without_any_load_is_told() {
+    let mast = format!(
+        "{OPENING}[points]\na = [0.0, 0.0, 0.0]\nb = [0.0, 0.0, 3.0]\n{}[[supports]]\nat = \"a\"\nfix = \"all\"\n",
+        beam("mast", "\"a\", \"b\"", 2)
+    );
+    let fixed = format!("{mast}[[loads]]\nat = \"a\"\nforce = [1.0, 0.0, 0.0]\n");
+    for kind in ["dynamic", "static"] {
+        let set = format!("analysis.kind={kind}");
+        for deck in [&mast, &fixed] {
+            assert!(said_of(deck, &["--set", &set]).contains("nothing moves: no load"), "{kind}");
+        }
+        let loaded = fixed.replace("at = \"a\"\nforce", "at = \"b\"\nforce");
+        assert!(!said_of(&loaded, &["--set", &set]).contains("nothing moves"), "{kind}");
+    }
+}
+
+/// Rows that are farther apart than a third of a period miss its peaks, and the run says so with the period; rows that follow the motion, a
+/// bounce within a few of them, and a small vibration on a slow motion are told nothing.
+#[test]
+fn rows_too_far_apart_for_the_motion_are_told() {
+    // ω = 20 π: a period of 0.1.
+    let oscillator = |interval: f64, more: &str| {
+        format!(
+            "[analysis]\nkind = \"dynamic\"\nend_time = 2.0\ntime_step = 0.001\n[integrator]\nscheme = \"newmark\"\n\
+             [points]\np = [1.0, 0.0, 0.0]\n[[masses]]\nat = \"p\"\nmass = 1.0\n[[links]]\nname = \"spring\"\n\
+             from = {{ ground = [0.0, 0.0, 0.0] }}\nto = {{ node = \"p\" }}\nstiffness = 3947.84\n[[supports]]\nat = \"p\"\n\
+             fix = [\"uy\", \"uz\"]\n[output]\ninterval = {interval:?}\n{more}"
+        )
+    };
+    let moving = "[[initial]]\nat = \"p\"\nvelocity = [1.0, 0.0, 0.0]\n";
+    for (interval, told) in [(0.025, true), (0.031, true), (0.043, true), (0.02, false), (0.01, false)] {
+        let said = said_of(&oscillator(interval, moving), &[]);
+        let period = said
+            .split("apart for `p`: between")
+            .nth(1)
+            .map(|rest| rest.split("period near ").nth(1).unwrap().split(". ").next().unwrap().parse::<f64>().unwrap());
+        assert_eq!(period.is_some(), told, "{interval}: {said}");
+        // The rows of two seconds hold no whole number of periods.
+        assert!(period.is_none_or(|period| (period - 0.1).abs() < 0.01), "{interval}: {said}");
+    }
+    // A slow push of 0.5 with a vibration of 0.001 on it.
+    let pushed = "[[loads]]\nat = \"p\"\nforce = [2000.0, 0.0, 0.0]\namplitude = \"slow\"\n[amplitudes.slow]\n\
+                  kind = \"sine-squared\"\nfrequency = 0.25\n[[initial]]\nat = \"p\"\nvelocity = [0.06, 0.0, 0.0]\n";
+    assert!(!said_of(&oscillator(0.043, pushed), &[]).contains("too far apart"));
+    let bouncing = "[analysis]\nkind = \"dynamic\"\nend_time = 2.0\ntime_step = 0.0005\n[[bodies]]\nname = \"ball\"\ncenter = [0.0, 0.0, 0.6]\n\
+                    mass = 1.0\nshape = { kind = \"sphere\", radius = 0.1 }\n[[contacts]]\nname = \"floor\"\nwith = \"ball\"\nstiffness = 1e6\n\
+                    surface = { shape = \"plane\", point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }\nrestitution = 0.9\n\
+                    [environment]\ngravity = [0.0, 0.0, -9.81]\n[output]\ninterval = 0.05\n";
+    assert!(!said_of(bouncing, &[]).contains("too far apart"), "{}", said_of(bouncing, &[]));
+}

@@ -42,6 +42,8 @@ const YIELD_STRAIN: [f64; 2] = [1e-5, 0.5];
 const METAL: [f64; 2] = [1e9, 1.3e12];
 /// ... and the units of their values, in Pa: Pa, MPa, GPa, psi and ksi.
 const PRESSURES: [f64; 5] = [1.0, 1e6, 1e9, 6894.76, 6.89476e6];
+/// Expansions from invar to liquids, in parts per kelvin: no solid has more.
+const MOST_EXPANSION: f64 = 1e-3;
 /// Factor on the yield stress above which nothing is meant to yield.
 const NEVER: f64 = 1e5;
 /// A hardening modulus below this part of Young's modulus has no effect.
@@ -74,6 +76,14 @@ pub fn check_units(deck: &Deck, report: &mut Report) {
         }
         if report.is_clean_since(mark) {
             check_yield(&name.value, material, report);
+        }
+        if let Some(expansion) = material.expansion.as_ref().filter(|at| at.value > MOST_EXPANSION) {
+            let message = format!(
+                "material `{}` expands by {} per unit of temperature, more than any solid",
+                name.value,
+                short(expansion.value)
+            );
+            report.warn(&expansion.span, message, "give a part of the length, such as 1.2e-5 for steel");
         }
     }
 }

@@ -1,0 +1,93 @@
+//! Warning for parts that nothing joins to the parts that supports hold.
+
+use crate::data::{AnalysisKind, Model};
+use crate::report::Report;
+use deck::parts::PartKind;
+
+/// Warns of parts at rest that nothing joins to the supported ones and no load moves: in statics the matrix is singular there, in dynamics
+/// they fall or stand still without a word. Where nothing is supported, all of them are free on purpose, unless they deform and fall into the void.
+pub fn check_loose(model: &Model, report: &mut Report) {
+    if model.analysis.kind != AnalysisKind::Dynamic {
+        return;
+    }
+    let falls = model.loading.gravity.norm() > 0.0;
+    let place = |node: usize| model.nodes[node].place.map_or(0..0, |[from, to]| from..to);
+    let mut groups = Groups::new(model);
+    let ground = groups.of(model.nodes.len());
+    let mut is_free = vec![true; model.nodes.len() + 1];
+    for (node, data) in model.nodes.iter().enumerate() {
+        let moves = data.v.norm() + data.omega.norm() > 0.0 || data.given.iter().any(Option::is_some);
+        if moves {
+            is_free[groups.of(node)] = false;
+        }
+    }
+    model.loading.nodal.iter().for_each(|load| is_free[groups.of(load.node)] = false);
+    model.loading.pressures.iter().flat_map(|load| &load.faces).flat_map(|face| face.nodes()).for_each(|&node| {
+        is_free[groups.of(node)] = false;
+    });
+    let deformable = model.parts.iter().filter(|part| part.kind().is_deformable() && part.elements() > 0);
+    let parts = deformable.filter_map(|part| Some((part.name(), *part.nodes(0).first()?)));
+    let bodies = model.bodies.iter().map(|body| (body.name.as_str(), body.node));
+    let all: Vec<(&str, usize)> = parts.chain(bodies).collect();
+    if !all.iter().any(|(_, node)| groups.of(*node) == ground) {
+        let is_still = model.nodes.iter().all(|node| node.v.norm() + node.omega.norm() == 0.0);
+        let lands = model.has(PartKind::Contact) || !model.loading.nodal.is_empty();
+        let deforms = model.parts.iter().any(|part| part.kind().is_deformable());
+        if let Some((name, node)) = all.first().filter(|_| falls && is_still && !lands && deforms) {
+            let message =
+                format!("no support, joint or contact holds `{name}` or any other part: all of them fall freely");
+            report.warn(&place(*node), message, "add `[[supports]]`");
+        }
+        return;
+    }
+    for (name, node) in all {
+        let group = groups.of(node);
+        if group == ground || !std::mem::take(&mut is_free[group]) {
+            continue;
+        }
+        let does = if falls { "falls freely" } else { "stands still" };
+        let message = format!("nothing joins `{name}` to the parts that supports hold: it {does}");
+        let hint = "name a point of it in another part, or join it by `[[joints]]`, `[[ties]]`, `[[attachments]]`, `[[links]]` or `[[contacts]]`";
+        report.warn(&place(node), message, hint);
+    }
+}
+
+/// The nodes that elements, joints, attachments, links and contacts join, and the ground as one more node behind the last.
+struct Groups {
+    towards: Vec<usize>,
+}
+
+impl Groups {
+    fn new(model: &Model) -> Groups {
+        let count = model.nodes.len();
+        let mut groups = Groups { towards: (0..=count).collect() };
+        for part in &model.parts {
+            let touched = part.touched_nodes();
+            let carrier = if part.kind() == PartKind::Contact { touched.first().copied() } else { None };
+            for element in 0..part.elements() {
+                let nodes = part.nodes(element).iter().chain(&carrier);
+                nodes.for_each(|&node| groups.join(part.nodes(element)[0], node));
+            }
+            carrier.iter().for_each(|&first| touched.iter().for_each(|&node| groups.join(first, node)));
+        }
+        let constraints = &model.constraints;
+        constraints.dependents.iter().for_each(|dependent| groups.join(dependent.node, dependent.master));
+        constraints.joints.iter().for_each(|joint| joint.all_ends().for_each(|end| groups.join(joint.ends[0], end)));
+        constraints.restraints.iter().for_each(|restraint| groups.join(restraint.node, count));
+        model.damping.nodal.iter().for_each(|damper| groups.join(damper.node, count));
+        groups
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let [a, b] = [self.of(a), self.of(b)];
+        self.towards[a.max(b)] = a.min(b);
+    }
+
+    fn of(&mut self, mut node: usize) -> usize {
+        while self.towards[node] != node {
+            self.towards[node] = self.towards[self.towards[node]];
+            node = self.towards[node];
+        }
+        node
+    }
+}
