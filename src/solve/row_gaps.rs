@@ -13,17 +13,20 @@ use std::f64::consts::{SQRT_2, TAU};
 struct Track {
     x: Vec3,
     v: Vec3,
+    /// The way from the row before.
+    way: Vec3,
     /// The corners of the box of all rows.
     low: Vec3,
     high: Vec3,
     /// Rows whose velocities do not explain the way from the row before.
     unresolved: usize,
-    /// Sums of squares: of that unexplained way over time, and of accelerations.
+    /// Sums of squares: of that unexplained way over time, of accelerations, and of changes of the way.
     unexplained: f64,
     acceleration: f64,
+    bend: f64,
 }
 
-keep!(Track: Default { x, v, low, high, unresolved, unexplained, acceleration });
+keep!(Track: Default { x, v, way, low, high, unresolved, unexplained, acceleration, bend });
 
 /// The motions that rows show, of the nodes in nodes.csv and of bodies.
 #[derive(Debug, Default)]
@@ -79,6 +82,10 @@ impl RowGaps {
                 track.unresolved += usize::from(unexplained > STRAIGHT * (way.norm() + expected.norm()));
                 track.unexplained += (unexplained / dt).powi(2);
                 track.acceleration += a.norm_squared();
+                if self.rows > 1 {
+                    track.bend += (way - track.way).norm_squared();
+                }
+                track.way = way;
                 (track.low, track.high) = (track.low.inf(&x), track.high.sup(&x));
             }
             (track.x, track.v) = (x, v);
@@ -90,14 +97,18 @@ impl RowGaps {
     }
 
     /// The largest motion between rows, as a share of the whole motion of its node; `None` where rows follow all of them. It is that of a sine
-    /// with the accelerations of the rows, and with the ways between them that velocities do not explain.
+    /// with the accelerations of the rows, and with the ways between them that velocities do not explain. The rows must zigzag by it too.
     pub fn largest(&self) -> Option<RowGap> {
         let rows = self.rows.checked_sub(1).filter(|rows| *rows >= ENOUGH_ROWS)? as f64;
         let gap = |(&node, track): (&usize, &Track)| {
-            let [unexplained, acceleration] = [track.unexplained, track.acceleration].map(|sum| (sum / rows).sqrt());
+            let [unexplained, acceleration, bend] =
+                [track.unexplained, track.acceleration, track.bend].map(|sum| (sum / rows).sqrt());
             let apart = (self.time - self.begin) / rows;
-            let frequency = 2.0 * half_angle(2.0 * unexplained / (acceleration * apart)) / apart;
-            let amplitude = SQRT_2 * acceleration / (frequency * frequency);
+            let half = half_angle(2.0 * unexplained / (acceleration * apart));
+            let frequency = 2.0 * half / apart;
+            // Noise of many frequencies has large velocities and accelerations, and rows that lie on a smooth curve.
+            let seen = SQRT_2 * bend / (2.0 * half.sin()).powi(2);
+            let amplitude = (SQRT_2 * acceleration / (frequency * frequency)).min(seen);
             let share = amplitude / (track.high - track.low).norm();
             let period = TAU / frequency;
             let is_sparse = track.unresolved as f64 > MOST_UNRESOLVED * rows && period < MOST_ROWS * apart;
