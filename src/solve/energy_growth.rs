@@ -8,7 +8,7 @@ use crate::tolerances::energy_growth::{FAR, LOST, SOUND};
 use base::snapshot::keep;
 use mechanics::integrators::Stepping;
 use mechanics::state::State;
-use model::{AnalysisKind, Link, LinkKind, Model, StepLength};
+use model::{AnalysisKind, Model, StepLength};
 
 /// The balance of energy of an analysis. In statics the work of a step uses only its ends, so the missing energy is reported only at the
 /// end of the run.
@@ -108,7 +108,7 @@ fn is_moved_by_weight_alone(model: &Model) -> bool {
     let is_loaded = !(loading.nodal.is_empty() && loading.pressures.is_empty() && loading.centrifugal.is_empty());
     let is_driven = !loading.base_accelerations.is_empty() || loading.gravity_amplitude.is_some();
     let is_led = model.constraints.restraints.iter().any(|restraint| restraint.motion.is_some());
-    let is_fed = model.each::<Link>().any(|link| matches!(link.kind, LinkKind::Bearing { .. }));
+    let is_fed = model.parts.iter().any(|part| part.may_feed());
     !(is_loaded || is_driven || is_led || is_fed)
 }
 

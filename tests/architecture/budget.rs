@@ -9,12 +9,12 @@ const BUDGET: [(&str, usize); 11] = [
     ("mechanics", 36_050),
     ("deck", 5430),
     ("import", 10_650),
-    ("model", 27_170),
-    ("solve", 35_050),
+    ("model", 27_450),
+    ("solve", 35_240),
     ("results", 11_550),
     ("study", 4280),
-    ("sweep", 1560),
-    ("program", 6550),
+    ("sweep", 1670),
+    ("program", 6590),
 ];
 
 #[test]

@@ -163,6 +163,10 @@ impl PartAnswers for Link {
         }
     }
 
+    fn may_feed(&self) -> bool {
+        matches!(self.kind, LinkKind::Bearing { .. })
+    }
+
     fn may_release(&self) -> bool {
         let releases = |law: &LinkLaw| matches!(law, LinkLaw::Table { .. }) || law.force(0.0).0 != 0.0;
         self.failure.is_some() || matches!(&self.kind, LinkKind::Line { law, .. } if releases(law))

@@ -127,6 +127,11 @@ pub trait PartAnswers {
         false
     }
 
+    /// True where the part may do work over a cycle, as matrices of bearings that are not symmetric do.
+    fn may_feed(&self) -> bool {
+        false
+    }
+
     /// True for a part with an elastic stiffness on which Rayleigh's β acts.
     fn has_damped_stiffness(&self) -> bool {
         true

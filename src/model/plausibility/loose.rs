@@ -2,7 +2,6 @@
 
 use crate::data::{AnalysisKind, Model};
 use crate::report::Report;
-use deck::parts::PartKind;
 
 /// Warns of parts at rest that nothing joins to the supported ones and no load moves: in statics the matrix is singular there, in dynamics
 /// they fall or stand still without a word. Where nothing is supported, all of them are free on purpose, unless they deform and fall into the void.
@@ -31,7 +30,7 @@ pub fn check_loose(model: &Model, report: &mut Report) {
     let all: Vec<(&str, usize)> = parts.chain(bodies).collect();
     if !all.iter().any(|(_, node)| groups.of(*node) == ground) {
         let is_still = model.nodes.iter().all(|node| node.v.norm() + node.omega.norm() == 0.0);
-        let lands = model.has(PartKind::Contact) || !model.loading.nodal.is_empty();
+        let lands = model.parts.iter().any(|part| !part.touched_nodes().is_empty()) || !model.loading.nodal.is_empty();
         let deforms = model.parts.iter().any(|part| part.kind().is_deformable());
         if let Some((name, node)) = all.first().filter(|_| falls && is_still && !lands && deforms) {
             let message =
@@ -63,7 +62,7 @@ impl Groups {
         let mut groups = Groups { towards: (0..=count).collect() };
         for part in &model.parts {
             let touched = part.touched_nodes();
-            let carrier = if part.kind() == PartKind::Contact { touched.first().copied() } else { None };
+            let carrier = touched.first().copied();
             for element in 0..part.elements() {
                 let nodes = part.nodes(element).iter().chain(&carrier);
                 nodes.for_each(|&node| groups.join(part.nodes(element)[0], node));

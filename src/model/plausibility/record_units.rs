@@ -1,9 +1,9 @@
 //! Records in other units than the deck. Headers of data bases give the unit; values are converted where the deck has `units` and no scale.
 
+use super::shaking::{Use, check_bare, is_converted_twice};
 use crate::record::{MotionQuantity, RecordUnit};
 use crate::records::Record;
 use crate::report::Report;
-use base::diagnostic::Span;
 use base::names::{short, to_digits};
 use deck::Deck;
 use deck::supports::{History, Motion};
@@ -14,19 +14,6 @@ const SCALING: f64 = 50.0;
 
 /// The strength of a record is reported below this part of it: a factor of 2 on a record in g, without g itself, is a fifth.
 const WEAK: f64 = 0.5;
-
-/// A use of a record as a motion in the deck.
-pub struct Use<'d> {
-    amplitude: &'d Maybe<String>,
-    /// The quantity that the amplitude gives.
-    pub quantity: MotionQuantity,
-    /// The factor on the amplitude, where the deck has one.
-    pub scale: Option<f64>,
-    /// The moved thing, for messages.
-    pub what: &'static str,
-    /// The place of the use in the deck.
-    pub place: &'d Span,
-}
 
 /// Warns of records used as another quantity than their own, and of records in other units than the deck without a conversion.
 pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut Report) {
@@ -43,7 +30,7 @@ pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut 
         let words = &deck.amplitudes.0[index].1;
         let Some(record) = records.get(index).and_then(Option::as_ref) else { continue };
         let Some(unit) = &record.unit else {
-            super::shaking::check_bare(deck, &used, (words, record), report);
+            check_bare(deck, &used, (words, record), report);
             continue;
         };
         let file = words.file.as_ref().map_or("", |file| file.value.as_str());
@@ -64,7 +51,7 @@ pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut 
             continue;
         }
         let converted = conversion(deck, index, record);
-        if super::shaking::is_converted_twice(deck, &used, (words, unit, converted.is_some()), report) {
+        if is_converted_twice(deck, &used, (words, unit, converted.is_some()), report) {
             continue;
         }
         if let Some(factor) = converted {

@@ -1,12 +1,13 @@
 //! The strength of recorded accelerations: records without a unit, and records that are converted twice.
 
-use super::record_units::Use;
 use crate::record::{MotionQuantity, RecordUnit};
 use crate::records::Record;
 use crate::report::Report;
+use base::diagnostic::Span;
 use base::names::{short, to_digits};
 use deck::Deck;
 use deck::amplitudes::Amplitude;
+use deck::words::Maybe;
 
 /// Standard gravity, in m/s².
 const G: f64 = 9.80665;
@@ -17,6 +18,20 @@ const PEAKS: [f64; 2] = [0.1, 5.0];
 
 /// A scale is a conversion if it is one up to this part of it: 9.81 for 9.80665.
 const ROUNDED: f64 = 0.01;
+
+/// A use of a record as a motion in the deck.
+pub struct Use<'d> {
+    /// The amplitude.
+    pub amplitude: &'d Maybe<String>,
+    /// The quantity that the amplitude gives.
+    pub quantity: MotionQuantity,
+    /// The factor on the amplitude, where the deck has one.
+    pub scale: Option<f64>,
+    /// The moved thing, for messages.
+    pub what: &'static str,
+    /// The place of the use in the deck.
+    pub place: &'d Span,
+}
 
 /// The unit of acceleration of the deck, in m/s².
 fn acceleration(deck: &Deck) -> Option<f64> {
