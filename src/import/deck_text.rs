@@ -96,7 +96,7 @@ impl DeckTable {
         self.value(key, list(xs.iter().map(|x| number(*x))))
     }
 
-    /// Returns the table with the stages in which it acts, if these are not all.
+    /// Returns the table with its stages; `None` for all.
     pub fn in_stages(self, stages: Option<&[String]>) -> Self {
         match stages {
             Some(stages) => self.names("stages", stages),
@@ -132,7 +132,7 @@ impl DeckText {
         }
     }
 
-    /// Adds a table that acts in some stages, in all for `None`; none where it acts in none.
+    /// Adds a table with its stages, `None` for all. Without any stage it adds none.
     pub fn add_in(&mut self, table: DeckTable, stages: Option<Vec<String>>) {
         if stages.as_ref().is_none_or(|stages| !stages.is_empty()) {
             self.add(table.in_stages(stages.as_deref()));

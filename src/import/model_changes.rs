@@ -34,7 +34,7 @@ pub fn model_change(im: &mut Importer, block: &KeywordBlock) {
     }
 }
 
-/// Finds the steps in which contact pairs and elements act; refuses those that the deck keeps in all stages.
+/// Finds the steps of contact pairs and elements. Refuses parts, which act in all stages.
 pub fn find(build: &mut Build) {
     let changes: Vec<(usize, ModelChange)> = build.im.steps.list.iter().enumerate().flat_map(of_step).collect();
     for (step, change) in changes {
@@ -68,25 +68,24 @@ fn elements(build: &mut Build, step: usize, change: &ModelChange) {
         acts[step..].fill(change.is_added);
     }
     if change.is_added && !change.has_strain {
-        build.im.change(
-            change.line,
-            "what is added has the length without force that it has in the mesh, as with ADD=WITH STRAIN",
-        );
+        build
+            .im
+            .change(change.line, "added elements have no force at their length in the mesh, as with ADD=WITH STRAIN");
     }
 }
 
 impl Timeline {
-    /// The stages in which an element acts; `None` where these are all.
+    /// The stages of an element; `None` for all.
     pub fn stages_of_cell(&self, cell: usize) -> Option<Vec<String>> {
         let acts = self.acting.get(&cell)?;
         self.stages_where(|step| acts[step])
     }
 
-    /// The stages in which a contact pair acts; `None` where these are all.
+    /// The stages of a contact pair; `None` for all.
     pub fn stages_of_pair(&self, steps: &[StepCard], pair: &[NamedTarget; 2]) -> Option<Vec<String>> {
         let last = |step: usize| {
-            let changes = steps[..=step].iter().flat_map(|card| &card.changes);
-            changes.filter(|change| change.is_of_pair(pair)).next_back().is_none_or(|change| change.is_added)
+            let mut changes = steps[..=step].iter().flat_map(|card| &card.changes);
+            changes.rfind(|change| change.is_of_pair(pair)).is_none_or(|change| change.is_added)
         };
         self.stages_where(last)
     }

@@ -30,7 +30,7 @@ pub struct Timeline {
     pub general: Vec<usize>,
     /// The time step where all steps are one linear analysis.
     pub linear_step: Option<f64>,
-    /// In which steps elements act that `*MODEL CHANGE` names.
+    /// The steps of elements named by `*MODEL CHANGE`, by cell: true where the element acts.
     pub acting: BTreeMap<usize, Vec<bool>>,
 }
 

@@ -42,7 +42,7 @@ fn stages_of_links_and_joints() {
     let made = imported(&edited(&text, &[("*CLOAD", "*MODEL CHANGE, REMOVE\nk\n*CLOAD")]));
     assert!(refusals(&made).is_empty() && !made.deck.contains("[[links]]"), "{}", made.deck);
     let added = imported(&later("*MODEL CHANGE, ADD\nk\n"));
-    assert!(reasons(&added, KeywordVerdict::Changed)[0].contains("the length without force that it has in the mesh"));
+    assert!(reasons(&added, KeywordVerdict::Changed)[0].contains("no force at their length in the mesh"));
     refuses(&later("*MODEL CHANGE, REMOVE\nrod\n"), &[], "element 1 acts in all stages: springs, dampers");
     refuses(&later("*MODEL CHANGE, REMOVE\nnone\n"), &[], "no element set is named `none`");
     refuses(&later("*MODEL CHANGE\nk\n"), &[], "needs ADD or REMOVE");
