@@ -124,6 +124,10 @@ impl Observer for Watchers {
         self.files.on_step(frame)
     }
 
+    fn on_cutback(&mut self, time: f64) {
+        self.progress.on_cutback(time);
+    }
+
     fn on_modes(&mut self, frame: &Frame) -> io::Result<()> {
         self.expectations.on_modes(frame)?;
         let told = frame.modes.map_or(Vec::new(), |modes| lines(modes, frame.model));

@@ -15,6 +15,8 @@ pub struct Progress {
     bar: Option<ProgressBar>,
     shown: Instant,
     iterations: usize,
+    /// Cutbacks since the last accepted step.
+    cutbacks: usize,
 }
 
 impl Progress {
@@ -25,7 +27,7 @@ impl Progress {
             let bar = ProgressBar::with_draw_target(Some(LENGTH as u64), ProgressDrawTarget::stderr());
             bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
         });
-        Progress { bar, shown: Instant::now(), iterations: 0 }
+        Progress { bar, shown: Instant::now(), iterations: 0, cutbacks: 0 }
     }
 
     /// Clears the line for the next message.
@@ -40,6 +42,7 @@ impl Observer for Progress {
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         let Some(bar) = &self.bar else { return Ok(()) };
         self.iterations += frame.effort.iterations;
+        self.cutbacks = 0;
         if self.shown.elapsed() < PAUSE {
             return Ok(());
         }
@@ -48,5 +51,13 @@ impl Observer for Progress {
         bar.set_message(format!("t = {time:.4e}  step {}  {} iterations", frame.step, self.iterations));
         bar.set_position((LENGTH * time / end) as u64);
         Ok(())
+    }
+
+    fn on_cutback(&mut self, time: f64) {
+        self.cutbacks += 1;
+        if let Some(bar) = &self.bar {
+            let times = if self.cutbacks == 1 { "time" } else { "times" };
+            bar.set_message(format!("t = {time:.4e}  step shortened {} {times}", self.cutbacks));
+        }
     }
 }

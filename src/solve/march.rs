@@ -162,9 +162,10 @@ impl March<'_, '_> {
         self.notify(&AcceptedStep { dt: 0.0, report, cuts: 0, due: true, compared: false, last: false, passed: &[] })
     }
 
-    /// Counts a cutback.
+    /// Counts a cutback, and tells the observer.
     pub fn count_cut(&mut self) {
         self.recorder.counts.cuts += 1;
+        self.observer.on_cutback(self.state.time);
     }
 
     /// True for a time within rounding of the end of the run; no other step comes as near.
