@@ -130,9 +130,9 @@ fn reductions_of(
 
 /// Whole parts, or pieces of a beam.
 fn pieces(model: &Model, of: &Asked, (parts, count): (&[usize], usize), report: &mut Report) -> Option<Vec<Reduction>> {
-    let piece = |title: String, elements: Option<Range<usize>>| Reduction {
+    let piece = |elements: Option<Range<usize>>| Reduction {
         name: of.name.clone(),
-        title,
+        title: of.title.clone(),
         parts: parts.to_vec(),
         elements,
         interface: Vec::new(),
@@ -145,7 +145,7 @@ fn pieces(model: &Model, of: &Asked, (parts, count): (&[usize], usize), report: 
         made: None,
     };
     if count == 1 {
-        return Some(vec![piece(of.title.clone(), None)]);
+        return Some(vec![piece(None)]);
     }
     let is_path = matches!(&of.parts[..], [part] if part.at.kind == PartKind::Beam && part.table.group().is_none());
     let all = parts.iter().map(|&part| model.parts[part].elements()).sum::<usize>();
@@ -159,9 +159,7 @@ fn pieces(model: &Model, of: &Asked, (parts, count): (&[usize], usize), report: 
             "give it more `elements`, or fewer `pieces`",
         ),
         true => {
-            let of_piece = |k: usize| {
-                piece(format!("piece {} of {}", k + 1, of.title), Some(k * all / count..(k + 1) * all / count))
-            };
+            let of_piece = |k: usize| piece(Some(k * all / count..(k + 1) * all / count));
             return Some((0..count).map(of_piece).collect());
         }
     };
@@ -201,6 +199,10 @@ fn reduction(
     // Stages of other interfaces have as many amplitudes; those beyond the modes are left out with the matrices.
     let most = 6 * nodes.len();
     let inner: Vec<usize> = nodes.into_iter().filter(|node| interface.binary_search(node).is_err()).collect();
+    if inner.is_empty() && piece.elements.is_some() {
+        let message = format!("a piece of {} has no nodes inside", piece.title);
+        return report.error_with(&asked.span, message, "give fewer `pieces`, or the beam more `elements`");
+    }
     if inner.is_empty() {
         let title = &piece.title;
         let message = format!(
@@ -209,7 +211,11 @@ fn reduction(
         return report.error_with(&asked.span, message, "give it more `elements`, or leave `reduced` out");
     }
     let damping = one_damping(model, of, (&piece.parts, &inner), report)?;
-    let amplitudes = amplitudes(model, &piece.title, interface[0], extent.modes.min(most));
+    let label = match &piece.elements {
+        Some(elements) => format!("{}, elements {} to {}", of.name, elements.start + 1, elements.end),
+        None => of.name.clone(),
+    };
+    let amplitudes = amplitudes(model, &label, interface[0], extent.modes.min(most));
     let (up_to, geometric) = (extent.up_to, extent.geometric);
     Some(Reduction { interface, inner, amplitudes, up_to, geometric, damping, ..piece })
 }
@@ -277,9 +283,10 @@ impl Extent {
             NumberOrTable::Number(number) => modes = *number,
             NumberOrTable::Table(table) => {
                 of.up_to = report.positive("up_to", &table.up_to);
-                let is_empty = table.modes.is_none() && table.up_to.is_none() && table.pieces.is_none();
+                let has_numbers = table.modes.is_some() || table.up_to.is_some() || table.pieces.is_some();
+                let is_empty = !has_numbers && table.geometric_stiffness.is_none();
                 if is_empty && !report.is_any_spoiled(&asked.span) {
-                    let hint = "give it `modes`, such as { modes = 20 }, `up_to`, or both";
+                    let hint = "give it `modes`, such as { modes = 20 }, `up_to` or `pieces`";
                     return report.error_with(&asked.span, "`reduced` asks for nothing", hint);
                 }
                 modes = table.modes.as_ref().map_or(modes, |modes| modes.value as f64);

@@ -409,7 +409,7 @@ pub fn bending_error(linear: bool, turn: f64) -> f64 {
 fn bent(name: &str, [reduced, linear]: [bool; 2], turn: f64) -> String {
     let [what, remedy] = match reduced {
         false => ["superelement", "Replace it by several superelements, or by `[[beams]]` or `[[shells]]`"],
-        true => ["reduced part", "Divide it by `pieces` or into several reduced parts, or leave `reduced` out"],
+        true => ["reduced part", "Give a beam `pieces`, replace a shell by several reduced parts, or leave `reduced` out"],
     };
     let why = match linear {
         true => "Its matrices take them as infinitesimal",
@@ -507,15 +507,16 @@ impl Warnings {
 
     /// Adds a superelement or a reduced part that turns in its frame by this angle, if its error is larger than that known.
     pub fn bend(&mut self, name: &str, [reduced, linear]: [bool; 2], turn: f64) {
+        let known = self.warnings.iter().position(|known| matches!(known, Warning::Bent { .. }));
+        if let Some(Warning::Bent { linear: other, turn: known, .. }) = known.map(|at| &self.warnings[at])
+            && bending_error(linear, turn) <= bending_error(*other, *known)
+        {
+            return;
+        }
         let found = Warning::Bent { name: name.to_owned(), reduced, linear, turn };
-        let known = self.warnings.iter_mut().find_map(|known| match *known {
-            Warning::Bent { linear, turn, .. } => Some((bending_error(linear, turn), known)),
-            _ => None,
-        });
         match known {
+            Some(at) => self.warnings[at] = found,
             None => self.warnings.push(found),
-            Some((error, known)) if bending_error(linear, turn) > error => *known = found,
-            Some(_) => {}
         }
     }
 

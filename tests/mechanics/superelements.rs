@@ -196,7 +196,7 @@ fn the_tangent_is_the_derivative_of_the_forces() {
         // The square of the step, and rounding over the step.
         assert!(off < 1e-8, "{off:e}");
         // Damping of a state at rest, by rates.
-        let block = SuperelementBlock(random.element());
+        let block = SuperelementBlock(FloatingElement::new(random.data.clone(), &random.x, 0.05));
         let rate = 7.0;
         block.tangent(0, &Configuration::of(&nodes), rate, Moduli::Elastic, &mut K);
         let add_rate = |nodes: &mut [Node], (node, dof): (usize, usize), h: f64| match dof {

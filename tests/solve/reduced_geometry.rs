@@ -74,6 +74,64 @@ fn a_reduced_column_buckles() {
     assert!((factor / EULER - 1.0).abs() < 2e-3, "{factor} {EULER}");
 }
 
+/// Columns that bend to one side of the line between their ends buckle as all elements do: one end guided, and one end pinned.
+#[test]
+fn unsymmetric_columns_buckle_under_their_loads() {
+    let factor = |ends: [&str; 2], key: &str| {
+        let held = BEAM.replace("fix = [\"translations\", \"rx\"]", ends[0]).replace("fix = [\"uy\", \"uz\"]", ends[1]);
+        let text = format!(
+            "[analysis]\nkind = \"buckling\"\nmodes = 1\n{held}[[loads]]\nat = \"b\"\nforce = [-1.0, 0.0, 0.0]\n"
+        );
+        modes(&text.replacen("elements = 5\n", &format!("elements = 8\n{key}"), 1)).list[0].factor.expect("a factor")
+    };
+    let clamped = "fix = \"all\"";
+    for (ends, exact) in [
+        ([clamped, "fix = [\"uy\", \"rotations\"]"], 1.0),
+        ([clamped, "fix = [\"uy\", \"uz\", \"rx\"]"], 2.045_75),
+        ([clamped, "fix = [\"uy\"]"], 0.25),
+    ] {
+        let (near, whole) = (factor(ends, "reduced = 6\n"), factor(ends, ""));
+        println!("{exact}: {} {}", near / EULER, whole / EULER);
+        // The strain at this load, and modes beyond those kept.
+        assert!((whole / EULER / exact - 1.0).abs() < 2e-3, "{whole} {exact}");
+        assert!((near / whole - 1.0).abs() < 3e-3, "{near} {whole}");
+    }
+}
+
+/// Pieces of a beam are beams that are reduced each: the same motion but for rounding.
+#[test]
+fn pieces_are_beams_one_by_one() {
+    let analysis = "[analysis]\nkind = \"dynamic\"\nend_time = 0.05\ntime_step = 1e-3\n[environment]\ngravity = [0.0, 2.0, -9.81]\n";
+    let held = BEAM.replace("fix = [\"translations\", \"rx\"]", "fix = \"all\"");
+    let held = held.split("[[supports]]\nat = \"b\"").next().unwrap_or_default().to_owned();
+    let load = "[[loads]]\nat = \"b\"\nforce = [0.0, 10.0, -30.0]\n";
+    let whole = held.replacen("elements = 5\n", "elements = 8\nreduced = { modes = 4, pieces = 2 }\n", 1);
+    let (start, beam) = held.split_once("[[beams]]").expect("a beam");
+    let (beam, support) = beam.split_once("[[supports]]").expect("a support");
+    let half = |name: &str, ends: &str| {
+        let own = beam.replace("\"arm\"", name).replace("[\"a\", \"b\"]", ends);
+        format!("[[beams]]{}", own.replacen("elements = 5\n", "elements = 4\nreduced = 4\n", 1))
+    };
+    let halves = format!(
+        "{start}m = [0.5, 0.0, 0.0]\n{}{}[[supports]]{support}",
+        half("\"one\"", "[\"a\", \"m\"]"),
+        half("\"two\"", "[\"m\", \"b\"]")
+    );
+    let tip = |text: &str| {
+        let model = read_deck(&format!("{analysis}{text}{load}"));
+        assert_eq!(model.reductions.len(), 2);
+        let done = run_to_the_end(&model, &mut |frame| {
+            let at = frame.model.nodes.iter().position(|node| node.label == "b").expect("a node");
+            frame.state.nodes[at].x.iter().copied().collect()
+        });
+        done.rows.last().expect("a row").clone()
+    };
+    let (pieces, beams) = (tip(&whole), tip(&halves));
+    let off = pieces.iter().zip(&beams).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+    // The tolerance of the iteration, 1e-4 of the motion at most.
+    assert!(off < 1e-6, "{off:e} {pieces:?} {beams:?}");
+}
+
 /// A moment bends a cantilever: the error of its tip falls with the fourth power of the angle, and with the pieces.
 #[test]
 fn bending_shortens_a_reduced_beam() {

@@ -42,6 +42,7 @@ fn warnings() -> Vec<Warning> {
         Warning::LargeRotation { label: "tip".to_owned(), turn: 0.21 },
         Warning::BeyondYield { name: "post".to_owned(), stress: 4.1e8, limit: 2.35e8 },
         Warning::Bent { name: "blade".to_owned(), reduced: false, linear: true, turn: 0.24 },
+        Warning::Bent { name: "rod".to_owned(), reduced: true, linear: false, turn: 0.4 },
         Warning::RotationDrifts { label: "ship".to_owned(), direction: "rz", drift: 0.031 },
         Warning::ContactThrows(throws),
         Warning::SlipBegins(on_contact),

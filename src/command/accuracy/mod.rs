@@ -78,10 +78,11 @@ fn choose(loaded: &Loaded, deck: &Deck, asked: f64, (threads, stop): (usize, &At
     let shares = Shares::new(asked, model, &groups, !open.is_empty());
     let report = &mut chosen.report;
     report.remarks.extend((!fixed.is_empty()).then(|| super::mesh_error::of_file(&fixed)));
-    report.remarks.extend(model.reductions.iter().map(|reduction| {
+    let reduced = model.reductions.chunk_by(|a, b| a.parts == b.parts);
+    report.remarks.extend(reduced.map(|pieces| {
         format!(
             "the error of the modes of {} is not known. Compare with a run with more modes in `reduced`",
-            reduction.title
+            pieces[0].title
         )
     }));
     let is_mesh_known = !groups.is_empty() && fixed.is_empty();

@@ -37,6 +37,11 @@ pub struct Reduction {
 }
 
 impl Reduction {
+    /// True where the part has no terms of second order.
+    pub fn is_linear(&self) -> bool {
+        self.made.as_ref().is_none_or(|made| made.matrices.second_order.is_none())
+    }
+
     /// The parts; of a beam that is cut into pieces, a beam of this piece.
     pub fn own_parts(&self, all: &[Part]) -> Vec<Part> {
         let mut own: Vec<Part> = self.parts.iter().map(|&part| all[part].clone()).collect();

@@ -30,8 +30,8 @@ fn look(cx: &Context, warnings: &mut Warnings, state: &State) {
     for group in &cx.system.groups {
         let own = group.configuration(&now);
         let of = cx.model.reduction(group.part).filter(|_| group.reduces);
-        let made = of.and_then(|of| of.made.as_ref());
-        let is_linear = made.is_none_or(|made| made.matrices.second_order.is_none());
+        let is_linear =
+            of.is_none_or(|of| cx.model.reductions.iter().any(|piece| piece.parts == of.parts && piece.is_linear()));
         let name = of.map_or_else(|| group.part_of(0, cx.model).name(), |of| &of.name);
         bend(warnings, name, [of.is_some(), is_linear], group.block.local_rotation(&own));
         group.block.surface_strains(&own, &mut |e, strain, is_logarithmic| {

@@ -21,7 +21,7 @@ use base::names::{joined, short};
 use linear::eigen::{Converged, EigenPair, Lanczos, SymmetricOperator};
 use linear::{Solver, Sparse};
 use mechanics::state::{Configuration, Increment, Node};
-use model::{AnalysisKind, Reduction, Restraint};
+use model::{AnalysisKind, Restraint};
 use std::collections::HashSet;
 
 /// Weights of the differences of sixth order between the states at 1, 2 and 3 steps and their opposites.
@@ -137,10 +137,9 @@ fn warnings_of(at: &Linearized, rests: bool, (found, wanted): (&[Factor], usize)
             part.name()
         ));
     }
-    let is_linear = |of: &&Reduction| of.made.as_ref().is_none_or(|made| made.matrices.second_order.is_none());
-    if let Some(of) = at.model.reductions.iter().find(is_linear) {
+    if let Some(of) = at.model.reductions.iter().find(|of| of.is_linear()) {
         warnings.push(format!(
-            "{} keeps its stiffness under compression because it is reduced: buckling inside of it is not found. Leave `reduced` out, or give it fewer modes and a smaller interface, at most 100 in all, for its geometric stiffness",
+            "{} keeps its stiffness under compression because it is reduced: buckling inside of it is not found. Leave `reduced` out, or let it have its geometric stiffness: 100 unknowns of interface and modes at most, and no `geometric_stiffness = false`",
             of.title
         ));
     }

@@ -16,7 +16,9 @@ use crate::system::{Loading, System, reduced};
 use crate::tolerances::reduction::{CARRIED, FEW, MOST};
 use base::diagnostic::Diagnostic;
 use base::math::{Vec3, Vec6};
-use mechanics::elements::superelement::{InertiaIntegrals, SecondOrder, SuperelementData, dot, products};
+use mechanics::elements::superelement::{
+    FloatingElement, InertiaIntegrals, SecondOrder, SuperelementData, dot, products,
+};
 use mechanics::state::{Node, State};
 use model::{
     AnalysisKind, Constraints, Damping, LoadCases, Loading as ModelLoading, ModeExtent, Model, ModesAsked, ReducedPart,
@@ -305,15 +307,16 @@ impl Shapes<'_> {
             .map_err(|wrong| format!("{}, by rounding. Take fewer elements, or leave `reduced` out", wrong.message))?;
         let entries = |matrix: &DMatrix<f64>| Arc::from(matrix.as_slice());
         let amplitudes = &of.amplitudes[..modes.kept.len()];
-        let matrices = SuperelementData {
+        let mut matrices = SuperelementData {
             nodes: of.interface.iter().chain(amplitudes).copied().collect(),
             interface: of.interface.len(),
             turns: true,
             stiffness: entries(&made.stiffness),
             mass: made.mass.as_ref().map_or_else(|| Arc::from([]), entries),
             damping: Arc::from([]),
-            second_order: self.second_order(&made.stiffness).map(Arc::new),
+            second_order: None,
         };
+        matrices.second_order = self.second_order(&made.stiffness, &matrices).map(Arc::new);
         let shapes = self.columns.column_iter().flat_map(|column| column.into_owned().as_slice()[placed..].to_vec());
         let shapes = shapes.collect();
         let integrals = has_mass.then(|| Arc::new(InertiaIntegrals::new(&masses, &self.columns)));
@@ -329,9 +332,13 @@ impl Shapes<'_> {
     }
 
     /// The terms of second order, if the deck does not leave them out.
-    fn second_order(&self, stiffness: &DMatrix<f64>) -> Option<SecondOrder> {
-        let nodes = (&self.own, &self.columns);
-        if self.of.geometric { second_order(&self.at, nodes, stiffness) } else { None }
+    fn second_order(&self, stiffness: &DMatrix<f64>, made: &SuperelementData) -> Option<SecondOrder> {
+        if !self.of.geometric {
+            return None;
+        }
+        let x: Vec<Vec3> = self.at.model.nodes.iter().map(|node| node.x).collect();
+        let element = FloatingElement::new(made.clone(), &x, 0.0);
+        second_order(&self.at, (&self.own, &self.columns), (stiffness, &element))
     }
 
     /// Φᵀ K Φ.

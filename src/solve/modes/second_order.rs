@@ -10,16 +10,18 @@ use crate::tolerances::second_order::{LARGEST, LEAST, MECHANISM, SLOPE, SOFT, TR
 use base::math::rotation::{exp, rates};
 use base::math::{Vec3, stack};
 use mechanics::elements::Force;
-use mechanics::elements::superelement::{Product, SecondOrder};
+use mechanics::elements::superelement::{FloatingElement, Product, SecondOrder};
 use mechanics::state::{Configuration, Node};
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeSet;
 
-/// The terms of a part with these shapes and this stiffness; `None` where it is too large for them, or has none.
+/// The terms of a part with these shapes and this stiffness, whose `element` places the frame; `None` where it is too large for them, or has none.
+///
+/// Displacements are those in the frame: turning a bent part shortens it along an axis that stays.
 pub fn second_order(
     at: &Linearized,
     (own, shapes): (&OwnNodes, &DMatrix<f64>),
-    stiffness: &DMatrix<f64>,
+    (stiffness, element): (&DMatrix<f64>, &FloatingElement),
 ) -> Option<SecondOrder> {
     let size = shapes.ncols();
     if size > LARGEST {
@@ -39,9 +41,10 @@ pub fn second_order(
     let order = &order[(0..size).find(|&at| !is_free(at))?..];
     let lambda: Vec<f64> = order.iter().map(|&k| eigen.eigenvalues[k]).collect();
     let vectors = DMatrix::from_fn(size, order.len(), |row, k| eigen.eigenvectors[(row, order[k])]);
-    let vectors = factor.tr_solve_lower_triangular(&vectors)?;
-    let motions = shapes * &vectors;
+    let mut vectors = factor.tr_solve_lower_triangular(&vectors)?;
     let coordinates = (gram * &vectors).transpose();
+    vectors.column_iter_mut().for_each(|mut vector| element.relative_to_frame(vector.as_mut_slice()));
+    let motions = shapes * &vectors;
     let mut deformed = Deformed { at, own, motions: &motions, nodes: at.nodes_at_rest(), F: Vec::new() };
     let soft = order.len().min(SOFT);
     let turned = &slopes * vectors.columns(0, soft);

@@ -4,6 +4,7 @@
 //! with m_i = T⁻ᵀ(ψ_i) g_ψ, h = Σ z_i × g_i + m_i and b = G⁻¹ h, the forces are f_i = g_i − ½ b × Y_i and the moments m_i − λ H_iᵀ b.
 
 use super::frame::{FloatingFrame, half_trace_less};
+use super::second_order::Memory;
 use super::{FloatingElement, Scratch, add_multiple, add_three, multiply, set_three, three};
 use crate::elements::block::{Branches, Elements, Force, Mechanics, Moduli, Results, subtract};
 use crate::state::{Configuration, Node};
@@ -58,10 +59,14 @@ impl FloatingElement {
         }
     }
 
-    /// Adds (C + β K) q̇ to `g`; `product` is memory.
-    fn add_viscous(&self, rates: &[f64], product: &mut [f64], g: &mut [f64]) {
+    /// Adds C q̇ and the forces by β of the rates of strain to `g`; `product` is memory.
+    fn add_viscous(&self, (q, rates): (&[f64], &[f64]), memory: (&mut [f64], &mut Memory), g: &mut [f64]) {
+        let (product, second_order) = memory;
         multiply(&self.data.stiffness, rates, product);
         g.iter_mut().zip(&*product).for_each(|(g, p)| *g += self.beta * p);
+        if let Some(terms) = self.data.second_order.as_ref().filter(|_| self.beta > 0.0) {
+            terms.add_viscous((q, rates), self.beta, second_order, g);
+        }
         if !self.data.damping.is_empty() {
             multiply(&self.data.damping, rates, product);
             g.iter_mut().zip(&*product).for_each(|(g, p)| *g += p);
@@ -92,7 +97,7 @@ impl FloatingElement {
         }
         if self.is_viscous() {
             self.rates(nodes, frame, rates);
-            self.add_viscous(rates, product, g);
+            self.add_viscous((q, rates), (product, second_order), g);
         }
         f.copy_from_slice(g);
         let mut h = Vec3::zeros();
@@ -136,7 +141,7 @@ impl FloatingElement {
         A.iter_mut().zip(&*self.data.stiffness).for_each(|(a, k)| *a = factor * k);
         A.iter_mut().zip(&*self.data.damping).for_each(|(a, c)| *a += rate * c);
         if let Some(terms) = &self.data.second_order {
-            terms.add_stiffness(q, second_order, A);
+            terms.add_stiffness(q, factor, second_order, A);
         }
         for (rows, inverse) in A.chunks_mut(6 * size).zip(&*inverses) {
             let [x, y, z] = three_rows(&mut rows[3 * size..], size);
@@ -356,11 +361,12 @@ impl Results for SuperelementBlock {
         if !of.is_viscous() {
             return 0.0;
         }
-        let Scratch { frame, vectors: [g, _, rates, product, ..], .. } = &mut *of.scratch();
+        let Scratch { frame, q, vectors: [g, _, rates, product, ..], second_order, .. } = &mut *of.scratch();
         of.place(now.nodes, frame);
+        of.displacements(now.nodes, frame, q);
         of.rates(now.nodes, frame, rates);
         g.fill(0.0);
-        of.add_viscous(rates, product, g);
+        of.add_viscous((q, rates), (product, second_order), g);
         rates.iter().zip(&*g).map(|(rate, g)| rate * g).sum()
     }
 }

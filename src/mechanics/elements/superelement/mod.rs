@@ -19,6 +19,7 @@ pub use integrals::{InertiaIntegrals, ModalMass, NodalMass, products};
 pub use recovery::InnerNodes;
 pub use second_order::{Product, SecondOrder};
 
+use crate::state::Node;
 use base::math::{Mat3, Vec3, skew};
 use frame::{FloatingFrame, axial};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -142,6 +143,19 @@ impl FloatingElement {
     /// True where the elastic forces are linear in the frame.
     pub fn is_linear(&self) -> bool {
         self.data.second_order.is_none()
+    }
+
+    /// Takes from a small motion at t = 0 the rigid motion of the frame that follows it.
+    pub fn relative_to_frame(&self, motion: &mut [f64]) {
+        let Scratch { frame, .. } = &mut *self.scratch();
+        let rest: Vec<Node> = self.x.iter().map(|x| Node::at_rest(*x)).collect();
+        frame.place(|i| &rest[i], &self.Y, self.turning);
+        let phi = self.turn(frame, motion);
+        let mean = (0..self.data.interface).map(|i| three(motion, 6 * i)).sum::<Vec3>() / self.data.interface as f64;
+        for (i, Y) in self.Y.iter().enumerate() {
+            add_three(motion, 6 * i, &-(mean + phi.cross(Y)));
+            add_three(motion, 6 * i + 3, &-phi);
+        }
     }
 
     /// The mass of the whole.

@@ -92,18 +92,46 @@ impl SecondOrder {
         for (i, force) in force.iter_mut().enumerate() {
             *force = self.stiffness[i] * e[i];
         }
+        self.add_products(p, s, force);
+        self.add_rows(force, g);
+    }
+
+    /// Adds the forces by β times the rates of strain ṗ + ė, beside β K q̇, to `g`.
+    pub fn add_viscous(&self, (q, rates): (&[f64], &[f64]), beta: f64, memory: &mut Memory, g: &mut [f64]) {
+        let Memory { p, e, s, force, E, .. } = memory;
+        let own = &mut E[..p.len()];
+        for (i, row) in self.coordinates.chunks_exact(q.len()).enumerate() {
+            (p[i], own[i]) = (super::dot(row, q), super::dot(row, rates));
+        }
+        e.fill(0.0);
         for Product { sum, of: [j, k], factor } in &self.terms {
-            let by = factor * s[*sum];
+            e[*sum] += factor * (p[*j] * own[*k] + own[*j] * p[*k]);
+        }
+        for (i, stiffness) in self.stiffness.iter().enumerate() {
+            (force[i], s[i]) = (beta * stiffness * e[i], beta * stiffness * (own[i] + e[i]));
+        }
+        self.add_products(p, s, force);
+        self.add_rows(force, g);
+    }
+
+    /// Adds the forces along the factors of the products, of forces along their sums.
+    fn add_products(&self, p: &[f64], sums: &[f64], force: &mut [f64]) {
+        for Product { sum, of: [j, k], factor } in &self.terms {
+            let by = factor * sums[*sum];
             force[*j] += by * p[*k];
             force[*k] += by * p[*j];
         }
-        for (force, row) in force.iter().zip(self.coordinates.chunks_exact(q.len())) {
+    }
+
+    /// Adds Lᵀ times forces.
+    fn add_rows(&self, force: &[f64], g: &mut [f64]) {
+        for (force, row) in force.iter().zip(self.coordinates.chunks_exact(g.len())) {
             super::add_multiple(g, *force, row);
         }
     }
 
-    /// Adds its second derivatives by q to a square matrix.
-    pub fn add_stiffness(&self, q: &[f64], memory: &mut Memory, K: &mut [f64]) {
+    /// Adds its second derivatives by q to a square matrix, those of strains times a factor.
+    pub fn add_stiffness(&self, q: &[f64], of_strains: f64, memory: &mut Memory, K: &mut [f64]) {
         self.evaluate(q, memory);
         let Memory { p, s, E, change, product, .. } = memory;
         let (count, size) = (p.len(), q.len());
@@ -118,7 +146,7 @@ impl SecondOrder {
         // ΛE + EᵀΛ + EᵀΛE = EᵀΛ (I + E) + ΛE
         for (i, (row, stiffness)) in E.chunks_exact(count).zip(&self.stiffness).enumerate() {
             for j in (0..count).filter(|&j| row[j] != 0.0) {
-                let by = stiffness * row[j];
+                let by = of_strains * stiffness * row[j];
                 super::add_multiple(&mut change[j * count..(j + 1) * count], by, row);
                 change[j * count + i] += by;
                 change[i * count + j] += by;

@@ -23,7 +23,9 @@ pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &Syst
         let (of, mass, elements) = (joined(&words), short(body.mass), rigid.elements);
         text.add("rigid", format!("{of} as body `{}`, mass {mass}, in place of its {elements} elements", body.name));
     }
-    for pieces in model.reductions.chunk_by(|a, b| a.parts == b.parts) {
+    let size =
+        |of: &Reduction| (of.interface.len(), of.inner.len(), of.made.as_ref().map(|made| made.frequencies.len()));
+    for pieces in model.reductions.chunk_by(|a, b| a.parts == b.parts && size(a) == size(b)) {
         text.add("reduced", reduced(&pieces[0], pieces.len()));
     }
     text.add("unknowns", plan.dofs.unknowns().to_string());
@@ -38,7 +40,7 @@ pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &Syst
 
 /// A reduced part, or pieces of one, in words.
 fn reduced(of: &Reduction, pieces: usize) -> String {
-    let title = if pieces > 1 { format!("`{}` in {pieces} pieces, each", of.name) } else { of.title.clone() };
+    let title = if pieces > 1 { format!("{pieces} pieces of {}, each", of.title) } else { of.title.clone() };
     let Some(made) = &of.made else { return title };
     let (interface, modes) = (6 * of.interface.len(), made.frequencies.len());
     let up_to = made.frequencies.last().map_or(String::new(), |last| format!(" up to {}", short(*last)));
