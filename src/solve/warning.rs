@@ -409,7 +409,9 @@ pub fn bending_error(linear: bool, turn: f64) -> f64 {
 fn bent(name: &str, [reduced, linear]: [bool; 2], turn: f64) -> String {
     let [what, remedy] = match reduced {
         false => ["superelement", "Replace it by several superelements, or by `[[beams]]` or `[[shells]]`"],
-        true => ["reduced part", "Give a beam `pieces`, replace a shell by several reduced parts, or leave `reduced` out"],
+        true => {
+            ["reduced part", "Give a beam `pieces`, replace a shell by several reduced parts, or leave `reduced` out"]
+        }
     };
     let why = match linear {
         true => "Its matrices take them as infinitesimal",
