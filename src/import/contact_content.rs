@@ -33,7 +33,7 @@ pub struct ModelChange {
     pub targets: Vec<NamedTarget>,
     /// True for a contact pair.
     pub is_pair: bool,
-    /// True where it is added, false where it is removed.
+    /// True for an added one, false for a removed one.
     pub is_added: bool,
     /// True where added elements strain from the start of the file on.
     pub has_strain: bool,

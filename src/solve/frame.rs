@@ -63,7 +63,7 @@ pub trait Observer {
     /// Receives each accepted step. An error is an input/output error; it ends the run with exit code 6.
     fn on_step(&mut self, frame: &Frame) -> std::io::Result<()>;
 
-    /// Receives the time from which a step is repeated with a shorter one.
+    /// Receives the start of a step that is repeated with a shorter length.
     fn on_cutback(&mut self, _time: f64) {}
 
     /// Receives the modes about a state, which has been shown before. An error is one of input/output.

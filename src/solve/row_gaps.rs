@@ -96,8 +96,8 @@ impl RowGaps {
         (self.rows, self.time) = (self.rows + 1, time);
     }
 
-    /// The largest motion between rows, as a share of the whole motion of its node; `None` where rows follow all of them. It is that of a sine
-    /// with the accelerations of the rows, and with the ways between them that velocities do not explain. The rows must zigzag by it too.
+    /// The largest motion between rows, as a share of the whole motion of its node; `None` where rows follow all of them. A sine
+    /// with the accelerations of the rows, and with their unexplained ways, has this motion. The rows must zigzag by it too.
     pub fn largest(&self) -> Option<RowGap> {
         let rows = self.rows.checked_sub(1).filter(|rows| *rows >= ENOUGH_ROWS)? as f64;
         let gap = |(&node, track): (&usize, &Track)| {
@@ -118,8 +118,8 @@ impl RowGaps {
     }
 }
 
-/// Half of the angle of a sine between two rows, by the unexplained way between them over half its acceleration times the square of their
-/// distance: (sin h/h − cos h)/h, which rises up to h = 2.08, three rows in two periods. Beyond, that angle is returned.
+/// Half of the angle h of a sine between two rows. `ratio` is the unexplained way between them over half the acceleration times the square of
+/// their distance: (sin h/h − cos h)/h. It rises up to h = 2.08, three rows in two periods, which is returned beyond.
 fn half_angle(ratio: f64) -> f64 {
     let mut bounds = [1e-6_f64, 2.0816];
     for _ in 0..60 {

@@ -507,7 +507,7 @@ impl Warnings {
         }
     }
 
-    /// Adds a superelement or a reduced part that turns in its frame by this angle, if its error is larger than that known.
+    /// Adds a superelement or a reduced part with this rotation in its frame. Only the largest error is kept.
     pub fn bend(&mut self, name: &str, [reduced, linear]: [bool; 2], turn: f64) {
         let known = self.warnings.iter().position(|known| matches!(known, Warning::Bent { .. }));
         if let Some(Warning::Bent { linear: other, turn: known, .. }) = known.map(|at| &self.warnings[at])

@@ -1,10 +1,10 @@
-//! Warning for parts that nothing joins to the parts that supports hold.
+//! Warning for parts without a connection to any support.
 
 use crate::data::{AnalysisKind, Model};
 use crate::report::Report;
 
-/// Warns of parts at rest that nothing joins to the supported ones and no load moves: in statics the matrix is singular there, in dynamics
-/// they fall or stand still without a word. Where nothing is supported, all of them are free on purpose, unless they deform and fall into the void.
+/// Warns of parts at rest that have no connection to supported ones, and no load. In statics the matrix is singular there; in dynamics they fall
+/// or stand still. Where nothing is supported, all of them are free on purpose, unless they deform and fall into the void.
 pub fn check_loose(model: &Model, report: &mut Report) {
     if model.analysis.kind != AnalysisKind::Dynamic {
         return;

@@ -5,8 +5,8 @@ use deck::Deck;
 use deck::analysis::AnalysisKind;
 use deck::stages::StageKind;
 
-/// Warns where the ground shakes a structure that nothing has loaded by its weight before: it then sags to twice its deflection at rest, and
-/// vibrates about it besides the motion by the record. A free fall or a drop has no such deflection, and no moving ground.
+/// Warns of gravity that acts at once under an earthquake. The structure sags to twice its deflection at rest, and vibrates besides the motion by
+/// the record. A free fall or a drop has no such deflection, and no moving ground.
 pub fn check_sudden_weight(deck: &Deck, report: &mut Report) {
     let Some(environment) = &deck.environment else { return };
     let Some(gravity) = environment.gravity.as_ref().filter(|_| environment.gravity_amplitude.is_none()) else {
@@ -27,7 +27,6 @@ pub fn check_sudden_weight(deck: &Deck, report: &mut Report) {
         return;
     }
     let message = "gravity acts at once as the ground begins to move: the structure sags to twice its deflection at rest, and vibrates";
-    let hint =
-        "put a stage before, `[[stages]]` of `kind = \"static\"`, in which the weight grows; or leave gravity out";
+    let hint = "let the weight grow in a stage before, `[[stages]]` of `kind = \"static\"`, or leave gravity out";
     report.warn(&gravity.span, message, hint);
 }

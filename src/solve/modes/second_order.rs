@@ -15,9 +15,8 @@ use mechanics::state::{Configuration, Node};
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeSet;
 
-/// The terms of a part with these shapes and this stiffness, whose `element` places the frame; `None` where it is too large for them, or has none.
-///
-/// Displacements are those in the frame: turning a bent part shortens it along an axis that stays.
+/// The terms of a part with these shapes and this stiffness. `None`: it is too large, or has no elastic motion. Displacements are those in the
+/// frame of `element`, because a turn shortens a bent part along an axis at rest.
 pub fn second_order(
     at: &Linearized,
     (own, shapes): (&OwnNodes, &DMatrix<f64>),
@@ -35,7 +34,7 @@ pub fn second_order(
     let eigen = (0.5 * (&scaled + scaled.transpose())).symmetric_eigen();
     let mut order: Vec<usize> = (0..size).collect();
     order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
-    // Six rigid motions, and what no element resists.
+    // Six rigid motions, and mechanisms.
     let least = MECHANISM * eigen.eigenvalues.max();
     let is_free = |at: usize| at < 6 || eigen.eigenvalues[order[at]] <= least;
     let order = &order[(0..size).find(|&at| !is_free(at))?..];
@@ -53,8 +52,8 @@ pub fn second_order(
     Some(kept(terms, &coordinates, lambda)).filter(|terms| !terms.terms.is_empty())
 }
 
-/// The slopes of shapes: rotations of nodes, displacements of nodes of an element beside one another over their distance, and a tenth of
-/// displacements over the extent, which measures translations. Stretching is stiff by this measure, and bending soft at any wavelength.
+/// The slopes of shapes: rotations of nodes, and differences of displacements of two nodes of an element over their distance. A tenth of
+/// displacements over the extent measures translations. Stretching is stiff by this measure, and bending soft at any wavelength.
 fn slopes(at: &Linearized, own: &OwnNodes, shapes: &DMatrix<f64>) -> DMatrix<f64> {
     let nodes = own.nodes();
     let x = |k: usize| at.model.nodes[nodes[k]].x;

@@ -1,6 +1,6 @@
 //! Terms of second order in the elastic energy of a reduced part: bending shortens it, and axial forces stiffen it.
 //!
-//! The coordinates p = L q are those of vectors v_i with K v_i = λ_i W v_i, softest first, where W is a sum of squares of slopes.
+//! The coordinates p = L q belong to vectors v_i with K v_i = λ_i W v_i, softest first. W is a sum of squares of slopes.
 //! The cubic part of the energy, Σ c_ijk p_i p_j p_k over i ≥ j ≥ k, belongs to the stiffest of the three. So the energy is
 //!   U = ½ qᵀ K q + Σ λ_i (p_i e_i + ½ e_i²),  e_i = Σ c_ijk p_j p_k / λ_i.
 //!
