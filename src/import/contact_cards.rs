@@ -4,6 +4,10 @@ use crate::contact_content::{ContactCard, InteractionCard, ModelChange};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::scopes::NamedTarget;
+use crate::step_cards::NO_STEP;
+
+/// The reason against a change of a pair that no `*CONTACT PAIR` has.
+pub const UNKNOWN_PAIR: &str = "no *CONTACT PAIR joins these two surfaces in this order";
 
 /// `*SURFACE INTERACTION`.
 pub fn interaction(im: &mut Importer, block: &KeywordBlock) {
@@ -79,17 +83,40 @@ pub fn pair(im: &mut Importer, block: &KeywordBlock) {
             [slave, master] => [slave.clone(), master.clone()],
             _ => [targets[0].clone(), targets[0].clone()],
         };
-        let change = |is_added| ModelChange::of_pair(data.line, surfaces.to_vec(), is_added);
-        if is_deleted {
-            im.steps.at_hand().changes.push(change(false));
-            continue;
+        enter(im, data.line, surfaces, (interaction.clone(), is_thin), is_deleted);
+    }
+}
+
+/// Adds a pair, or notes that a step has it or not. A pair has one card, which its changes are about: named again it comes back.
+fn enter(
+    im: &mut Importer,
+    line: usize,
+    surfaces: [NamedTarget; 2],
+    (interaction, is_thin): (String, bool),
+    is_deleted: bool,
+) {
+    let change = |is_added| ModelChange::of_pair(line, surfaces.to_vec(), is_added);
+    let [ends, comes] = [change(false), change(true)];
+    let known = im.constraints.contacts.pairs.iter().find(|card| comes.is_of_pair(&card.surfaces));
+    let known = known.map(|card| (card.line, card.interaction == interaction && card.is_thin == is_thin));
+    let is_in_step = im.steps.is_open;
+    match known {
+        _ if !is_in_step && (is_deleted || !im.steps.list.is_empty()) => im.refuse(line, NO_STEP),
+        None if is_deleted => im.refuse(line, UNKNOWN_PAIR),
+        Some(_) if is_deleted => im.steps.at_hand().changes.push(ends),
+        Some((_, true)) if is_in_step => im.steps.at_hand().changes.push(comes),
+        Some((first, _)) => {
+            let why =
+                format!("line {first} names this pair already: a pair has one *CONTACT PAIR, the same in all steps");
+            im.refuse(line, &why);
         }
-        if im.steps.list.len() > 1 {
-            // A pair of a later step is away before.
-            im.steps.list[0].changes.push(change(false));
-            im.steps.at_hand().changes.push(change(true));
+        None => {
+            if im.steps.list.len() > 1 {
+                // A pair of a later step is away before.
+                im.steps.list[0].changes.push(ends);
+                im.steps.at_hand().changes.push(comes);
+            }
+            im.constraints.contacts.pairs.push(ContactCard { line, interaction, surfaces, is_thin });
         }
-        let interaction = interaction.clone();
-        im.constraints.contacts.pairs.push(ContactCard { line: data.line, interaction, surfaces, is_thin });
     }
 }

@@ -75,6 +75,11 @@ impl DeckTable {
         self
     }
 
+    /// True where it has this key.
+    pub fn has(&self, key: &str) -> bool {
+        self.keys.iter().any(|(known, _)| known == key)
+    }
+
     /// Returns the table with a value as TOML has it.
     pub fn value(mut self, key: &str, value: impl Into<String>) -> Self {
         self.keys.push((self::key(key), value.into()));

@@ -4,6 +4,7 @@ use crate::build::Build;
 use crate::deck_text::{DeckTable, inline, list, number, quoted, vector};
 use crate::element_types::ElementUse;
 use crate::file_content::{ConnectorBehavior, ConnectorSection};
+use crate::model_changes;
 use base::math::Vec3;
 use std::collections::BTreeSet;
 
@@ -37,9 +38,7 @@ const JOINTS: [(&str, JointOf); 16] = [
 /// Adds all connectors.
 pub fn connectors(build: &mut Build) {
     for section in build.im.connectors.sections.clone() {
-        let mut kinds = section.kinds.clone();
-        kinds.sort();
-        let kind = kinds.join("+");
+        let kind = connection(&section);
         for at in build.cells(&section.target) {
             let cell = build.mesh.cells[at].clone();
             if build.im.scopes.types[cell.kind].becomes != ElementUse::Connector {
@@ -60,6 +59,9 @@ pub fn connectors(build: &mut Build) {
                 }
             };
             if let Some(table) = table {
+                if is_joint(&kind) && ["stiffness", "motion", "effort"].iter().any(|key| table.has(key)) {
+                    model_changes::refuse_later_coordinate(build, at);
+                }
                 build.deck.add_in(table, build.timeline.stages_of_cell(at));
             }
         }
@@ -69,6 +71,24 @@ pub fn connectors(build: &mut Build) {
     if build.timeline.general.len() > 1 {
         lines.iter().for_each(|line| build.im.change(*line, "what drives a connector acts from the start of the run"));
     }
+}
+
+/// The type of a connection, its words in the order of the alphabet.
+fn connection(section: &ConnectorSection) -> String {
+    let mut kinds = section.kinds.clone();
+    kinds.sort();
+    kinds.join("+")
+}
+
+/// The type of the connection that an element is.
+pub fn connection_of(build: &mut Build, cell: usize) -> Option<String> {
+    let sections = build.im.connectors.sections.clone();
+    sections.iter().find(|section| build.cells(&section.target).contains(&cell)).map(connection)
+}
+
+/// True for connections that become joints.
+pub fn is_joint(connection: &str) -> bool {
+    JOINTS.iter().any(|(word, _)| *word == connection)
 }
 
 /// Refuses loads and motions of elements that no section makes connectors.

@@ -134,7 +134,7 @@ pub const KEYWORDS: &[KeywordRow] = &[
         contact_cards::pair,
         "[[contacts]]",
     ),
-    read("MODEL CHANGE", "", model_changes::model_change, "`stages` of [[contacts]], [[links]] and [[joints]]"),
+    read("MODEL CHANGE", "ACTIVATE", model_changes::model_change, "`stages` of [[contacts]], [[links]] and [[joints]]"),
     read("SURFACE INTERACTION", "", contact_cards::interaction, "what acts in [[contacts]]"),
     read(
         "SURFACE BEHAVIOR",

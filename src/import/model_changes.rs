@@ -1,13 +1,24 @@
 //! `*MODEL CHANGE`: contact pairs, springs, dampers, gaps and connectors that come and go by step.
 
 use crate::build::Build;
+use crate::contact_cards::UNKNOWN_PAIR;
 use crate::contact_content::{ContactCard, ModelChange};
+use crate::element_types::ElementUse;
 use crate::file_content::StepCard;
 use crate::importer::Importer;
+use crate::joints;
 use crate::keyword_block::KeywordBlock;
 use crate::scopes::NamedTarget;
 use crate::step_cards::NO_STEP;
 use crate::timeline::Timeline;
+
+/// How an added spring along a line differs.
+const LINE_HAS_STRAIN: &str = "an added spring has no force at its length in the mesh, as with ADD=WITH STRAIN: `free_length` of its [[links]] gives another";
+/// How an added joint differs.
+const JOINT_HAS_NO_STRAIN: &str = "an added joint holds its ends as the step finds them, as with ADD=STRAIN FREE";
+/// Why springs along axes do not come without strain.
+const AXES_HAVE_STRAIN: &str =
+    "springs along axes have no force where the mesh has their ends: give ADD=WITH STRAIN, or a SPRINGA";
 
 /// `*MODEL CHANGE`.
 pub fn model_change(im: &mut Importer, block: &KeywordBlock) {
@@ -17,7 +28,13 @@ pub fn model_change(im: &mut Importer, block: &KeywordBlock) {
         kind if kind.starts_with("CONTACT") => true,
         _ => return im.refuse(line, "TYPE is CONTACT PAIR or ELEMENT"),
     };
+    if keyword.has("MECHSTRAINTORESIDUAL") {
+        return im.refuse(line, "MECHSTRAINTORESIDUAL is not translated: strains stay strains");
+    }
     let (is_added, is_removed) = (keyword.has("ADD"), keyword.has("REMOVE"));
+    if keyword.has("ACTIVATE") && !is_added && !is_removed {
+        return im.ignore(line, "ACTIVATE prepares changes in a restarted run");
+    }
     if is_added == is_removed {
         return im.refuse(line, "*MODEL CHANGE needs ADD or REMOVE");
     }
@@ -41,7 +58,7 @@ pub fn find(build: &mut Build) {
         let known = |card: &ContactCard| change.is_of_pair(&card.surfaces);
         match change.is_pair {
             true if build.im.constraints.contacts.pairs.iter().any(known) => {}
-            true => build.im.refuse(change.line, "no *CONTACT PAIR joins these two surfaces in this order"),
+            true => build.im.refuse(change.line, UNKNOWN_PAIR),
             false => elements(build, step, &change),
         }
     }
@@ -65,12 +82,43 @@ fn elements(build: &mut Build, step: usize, change: &ModelChange) {
         }
         let steps = build.im.steps.list.len();
         let acts = build.timeline.acting.entry(at).or_insert_with(|| vec![true; steps]);
+        let comes = change.is_added && !acts[step];
         acts[step..].fill(change.is_added);
+        if comes {
+            judge_added(build, at, change);
+        }
     }
-    if change.is_added && !change.has_strain {
-        build
-            .im
-            .change(change.line, "added elements have no force at their length in the mesh, as with ADD=WITH STRAIN");
+}
+
+/// Judges the place where an added element has no force: that of the mesh, or the current one.
+fn judge_added(build: &mut Build, at: usize, change: &ModelChange) {
+    let becomes = build.im.scopes.types[build.mesh.cells[at].kind].becomes;
+    let connection = joints::connection_of(build, at).filter(|_| becomes == ElementUse::Connector);
+    let is_joint = connection.as_deref().is_some_and(joints::is_joint);
+    let is_along_line = becomes == ElementUse::AxialSpring || connection.as_deref() == Some("AXIAL");
+    let is_along_axes = matches!(becomes, ElementUse::GroundSpring | ElementUse::DirectedSpring | ElementUse::JointC);
+    match change.has_strain {
+        true if is_joint => build.im.change(change.line, JOINT_HAS_NO_STRAIN),
+        false if is_along_line => build.im.change(change.line, LINE_HAS_STRAIN),
+        false if is_along_axes || connection.is_some() && !is_joint => build.im.refuse(change.line, AXES_HAVE_STRAIN),
+        _ => {}
+    }
+}
+
+/// Refuses the changes of a joint with a spring or a drive that is not there from the first stage on: its coordinate has no origin.
+pub fn refuse_later_coordinate(build: &mut Build, cell: usize) {
+    let Some(acts) = build.timeline.acting.get(&cell) else { return };
+    let acting: Vec<bool> = build.timeline.stages.iter().map(|stage| acts[stage.step]).collect();
+    if acting.is_sorted_by(|before, after| before >= after) && acting.first() == Some(&true) {
+        return;
+    }
+    let changes: Vec<ModelChange> =
+        build.im.steps.list.iter().flat_map(|card| card.changes.clone()).filter(|change| !change.is_pair).collect();
+    let why = "a joint with a spring or a drive does not come in a later step: leave it in all steps, with a drive that is zero until then";
+    for change in changes {
+        if change.targets.iter().any(|target| build.cells(target).contains(&cell)) {
+            build.im.refuse(change.line, why);
+        }
     }
 }
 

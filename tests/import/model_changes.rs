@@ -41,8 +41,35 @@ fn stages_of_links_and_joints() {
     // An element that no step has is no link.
     let made = imported(&edited(&text, &[("*CLOAD", "*MODEL CHANGE, REMOVE\nk\n*CLOAD")]));
     assert!(refusals(&made).is_empty() && !made.deck.contains("[[links]]"), "{}", made.deck);
-    let added = imported(&later("*MODEL CHANGE, ADD\nk\n"));
-    assert!(reasons(&added, KeywordVerdict::Changed)[0].contains("no force at their length in the mesh"));
+    // What is there already does not come; an element that comes again has its force from the mesh on.
+    let changed = |text: &str| reasons(&imported(text), KeywordVerdict::Changed);
+    assert_eq!(changed(&later("*MODEL CHANGE, ADD\nk\n")), [""; 0]);
+    let comes = |element: &str, how: &str| {
+        edited(BEAM, &[("*BOUNDARY", element)])
+            + &step("*MODEL CHANGE, REMOVE\nk\n")
+            + &step(&format!("*MODEL CHANGE, {how}\nk\n"))
+    };
+    let line = "*ELEMENT, TYPE=SPRINGA, ELSET=k\n5, 9, 2\n*SPRING, ELSET=k\n\n2e5\n*BOUNDARY";
+    assert!(changed(&comes(line, "ADD"))[0].contains("no force at its length in the mesh"));
+    assert_eq!(changed(&comes(line, "ADD=WITH STRAIN")), [""; 0]);
+    refuses(&comes(SPRING.1, "ADD=STRAIN FREE"), &[], "springs along axes have no force where the mesh");
+    assert_eq!(changed(&comes(&line.replace("SPRING", "DASHPOT"), "ADD")), [""; 0]);
+    let joint = "*ELEMENT, TYPE=CONN3D2, ELSET=k\n7, 2, 9\n*CONNECTOR SECTION, ELSET=k\nHINGE\n*BOUNDARY";
+    assert_eq!(changed(&comes(joint, "ADD")), [""; 0]);
+    assert!(changed(&comes(joint, "ADD=WITH STRAIN"))[0].contains("as the step finds them"));
+    // Springs of joints count from t = 0.
+    let sprung = joint.replace(
+        "SECTION, ELSET=k",
+        "BEHAVIOR, NAME=b\n*CONNECTOR ELASTICITY, COMPONENT=4\n3.\n*CONNECTOR SECTION, ELSET=k, BEHAVIOR=b",
+    );
+    refuses(&comes(&sprung, "ADD"), &[], "a joint with a spring or a drive");
+    assert_eq!(
+        refusals(&imported(&(edited(BEAM, &[("*BOUNDARY", &sprung)]) + &step("*MODEL CHANGE, REMOVE\nk\n")))),
+        [""; 0]
+    );
+    // CalculiX makes strains of solids residual by a word that stands alone.
+    refuses(&later("*MODEL CHANGE, MECHSTRAINTORESIDUAL\nk\n"), &[], "MECHSTRAINTORESIDUAL is not translated");
+    assert_eq!(refusals(&imported(&later("*MODEL CHANGE, ACTIVATE\n"))), [""; 0]);
     refuses(&later("*MODEL CHANGE, REMOVE\nrod\n"), &[], "element 1 acts in all stages: springs, dampers");
     refuses(&later("*MODEL CHANGE, REMOVE\nnone\n"), &[], "no element set is named `none`");
     refuses(&later("*MODEL CHANGE\nk\n"), &[], "needs ADD or REMOVE");
@@ -77,6 +104,30 @@ fn contact_pairs() {
     stages(&text("", pair), "stages = \"step_2\"\n");
     let deleted = pair.replace("INTERACTION=i", "OP=DELETE");
     stages(&text(pair, &deleted), "stages = \"step_1\"\n");
+    // A plate 2e-6 above the tip, which the load bends by more, holds it; once the pair is away the tip goes where the bare beam does.
+    let above = |text: String| {
+        let corners = ["0.9, -0.1", "1.1, -0.1", "1.1, 0.1", "0.9, 0.1"];
+        corners.iter().fold(text, |text, xy| text.replace(&format!("{xy}, 0.2"), &format!("{xy}, 0.010002")))
+    };
+    let uz = |text: String| moves(&text, "mesh.2").0[2];
+    let bare = uz(BEAM.to_owned());
+    // It stops within a tenth of the way to where it would be.
+    assert!((uz(above(text(pair, ""))) - 2e-6).abs() < 0.1 * bare);
+    // Load steps converge to less.
+    near(uz(above(text(pair, &change("REMOVE", "end, below")))), bare, 1e-6);
+    // A pair that comes again has one contact, whether it is named again or added.
+    let again = |lines: &str| text(pair, &deleted) + &step(lines);
+    for lines in [pair, &change("ADD", "end, below")] {
+        stages(&again(lines), "stages = [\"step_1\", \"step_3\"]\n");
+        assert_eq!(imported(&again(lines)).deck.matches("[[contacts]]").count(), 1);
+    }
+    let other = pair.replace("=i,", "=j,");
+    refuses(&again(&format!("*SURFACE INTERACTION, NAME=j\n{other}")), &[], "names this pair already");
+    refuses(&text(&format!("{pair}{pair}"), ""), &[], "names this pair already");
+    for lines in [pair, &deleted[..]] {
+        refuses(&(text(pair, "") + lines + &step("")), &[], "no *STEP is open");
+    }
+    refuses(&text("", &deleted), &[], "no *CONTACT PAIR joins these two surfaces in this order");
     refuses(
         &text(pair, &change("REMOVE", "below, end")),
         &[],
