@@ -20,7 +20,7 @@ use deck::words::Table;
 use given_rotations::{GivenRotations, TurnSetting, TurnedNode};
 use in_axes::{GivenDirection as Given, HeldDirections, SupportInAxes};
 use mechanics::amplitude::Amplitude;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 /// Restrains nodes, and adds the joints that hold dependent nodes to their supports. Returns the motions by the names of their supports, and the
 /// nodes whose rotations are given together.
@@ -33,9 +33,9 @@ pub(super) fn supports<'d>(
     let (support_points, moved, rotations) = (HashMap::new(), Vec::new(), GivenRotations::default());
     let held = HeldDirections::default();
     let of_others = scene.stage.iter().flat_map(CurrentStage::ends_elsewhere);
-    let resting = of_others.filter_map(|name| scene.names.point("node", name, &scene.parts, report)).collect();
-    let mut tables =
-        Supports { scene, amplitudes, topology, support_points, joints, moved, rotations, held, resting, report };
+    let ends = of_others.filter_map(|name| scene.names.point("node", name, &scene.parts, report));
+    topology.ends_elsewhere = ends.collect();
+    let mut tables = Supports { scene, amplitudes, topology, support_points, joints, moved, rotations, held, report };
     let mut named = Vec::new();
     // Supports with axes see which nodes the others hold.
     let (in_axes, others): (Vec<_>, Vec<_>) = scene.deck.supports.iter().partition(|support| support.axes.is_some());
@@ -65,8 +65,6 @@ struct Supports<'a, 'd> {
     rotations: GivenRotations<'d>,
     /// The directions held at nodes of supports with axes.
     held: HeldDirections,
-    /// Ends of links and joints of other stages. Where nothing else joins them, a support has nothing to do.
-    resting: HashSet<usize>,
     report: &'a mut Report<'d>,
 }
 
@@ -74,10 +72,8 @@ impl<'d> Supports<'_, 'd> {
     fn support(&mut self, support: &'d At<Table<words::Support>>) {
         let owner = Owner::new("`[[supports]]`", &support.span);
         let spots = self.scene.spots(&owner, "at", &support.at, Reach::Parts, self.report);
-        let mut spots = self.topology.without_loose(spots, "this support", self.report);
-        spots.retain(|spot| {
-            !self.resting.contains(&spot.node) || (0..6).any(|dof| self.topology.is_taken(spot.node, dof))
-        });
+        let spots = if support.motion.is_none() { self.without_resting(spots) } else { spots };
+        let spots = self.topology.without_loose(spots, "this support", self.report);
         let mut motions = support.motion.as_ref().map_or_else(Vec::new, |motions| self.motions(support, motions));
         let fixed = support.fix.as_ref().map_or([false; 6], |fix| fix.0);
         let unread = self.report.is_spoiled(owner.span, "fix") || self.report.is_spoiled(owner.span, "motion");
@@ -120,6 +116,20 @@ impl<'d> Supports<'_, 'd> {
                 }
             }
         }
+    }
+
+    /// The spots that this support holds. A support that moves nothing rests where links and joints of other stages alone end.
+    fn without_resting(&mut self, spots: Vec<Spot<'d>>) -> Vec<Spot<'d>> {
+        let is_free = |node: usize| (0..6).all(|dof| !self.topology.is_taken(node, dof));
+        let rests = |spot: &Spot| self.topology.ends_elsewhere.contains(&spot.node) && is_free(spot.node);
+        let (resting, spots): (Vec<Spot>, Vec<Spot>) = spots.into_iter().partition(rests);
+        if let Some(first) = resting.first() {
+            let others = if resting.len() > 1 { format!(" and {} more", resting.len() - 1) } else { String::new() };
+            let about = format!("this support holds nothing at `{}`{others} in this stage", first.name);
+            let hint = "links and joints of other stages end there: `stages` of the support can name theirs";
+            self.report.note(first.span, about, hint);
+        }
+        spots
     }
 
     /// Holds and moves nodes along axes that are not global ones.

@@ -266,6 +266,25 @@ fn decks_that_make_no_sense_are_errors_in_their_own_words() {
     run(format!("{time}{}{CLAMP}{often}", strip(""))).assert(3, &["`interval` asks for 1.0e11 rows"]);
 }
 
+/// A support rests where links of other stages alone end; one that moves the node would leave it behind, and is an error.
+#[test]
+fn supports_at_ends_of_links_of_other_stages() {
+    let stage =
+        |name: &str| format!("[[stages]]\nname = \"{name}\"\nkind = \"static\"\nduration = 1.0\ntime_step = 0.5\n");
+    let beam = strip("").replace("tip = [", "far = [3.0, 0.0, 0.0]\ntip = [");
+    let link = "[[links]]\nname = \"k\"\nfrom = { node = \"tip\" }\nto = { node = \"far\" }\nstiffness = 1e5\nstages = \"a\"\n";
+    let deck = |support: &str| {
+        format!("{}{}{beam}{CLAMP}\n{link}[[supports]]\nat = \"far\"\n{support}\n", stage("a"), stage("b"))
+    };
+    run(deck("fix = [\"ux\", \"uy\", \"uz\"]")).assert(0, &[]);
+    let moves = "fix = [\"uy\", \"uz\"]\nmotion = { ux = { scale = 1e-3 } }";
+    let why = "links and joints of other stages end there: `stages` beside it can name theirs";
+    run(deck(moves)).assert(3, &["nothing is connected to `far`, so this support acts on nothing", why]);
+    let load = "fix = [\"uy\", \"uz\"]\n[[loads]]\nat = \"far\"\nforce = [1.0, 0.0, 0.0]";
+    run(deck(load)).assert(3, &["nothing is connected to `far`, so this load acts on nothing", why]);
+    run(deck(&format!("{moves}\nstages = \"a\""))).assert(0, &[]);
+}
+
 #[test]
 fn no_load_is_no_motion() {
     for analysis in [STATIC.to_string(), dynamic(0.1, 0.001)] {

@@ -1,6 +1,6 @@
 //! The nodes of a model as the tables add them: positions, connections, dependent nodes and restraints.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::{Deref, DerefMut};
 
 use crate::data::{DependentNode, Node, PrescribedMotion, Restraint};
@@ -181,12 +181,14 @@ pub struct Topology {
     nodes: Nodes,
     /// True if all connecting tables could be read: an unconnected node then is a separate error.
     complete: bool,
+    /// Ends of links and joints of other stages.
+    pub ends_elsewhere: HashSet<usize>,
 }
 
 impl Topology {
     /// The nodes once all tables that connect them have been read.
     pub fn new(nodes: Nodes, report: &Report) -> Self {
-        Topology { nodes, complete: report.connections_known() }
+        Topology { nodes, complete: report.connections_known(), ends_elsewhere: HashSet::new() }
     }
 
     /// True if all connecting tables could be read.
@@ -204,7 +206,11 @@ impl Topology {
         let loose = (0..6).all(|dof| !self.is_taken(spot.node, dof));
         if loose && self.complete {
             let message = format!("nothing is connected to `{}`, so {what} acts on nothing", spot.name);
-            report.error_with::<()>(spot.span, message, "connect a beam, bar, shell, link, mass or body to it");
+            let hint = match self.ends_elsewhere.contains(&spot.node) {
+                true => "links and joints of other stages end there: `stages` beside it can name theirs",
+                false => "connect a beam, bar, shell, link, mass or body to it",
+            };
+            report.error_with::<()>(spot.span, message, hint);
         }
         loose
     }
