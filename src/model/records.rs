@@ -1,12 +1,13 @@
 //! The records that amplitudes name: they are read before the model is built.
 
 use super::data::RecordFile;
-use crate::record::{self, RecordColumn, RecordSelection, RecordUnit, TimeSeries};
+use crate::record::{self, RecordColumn, RecordSelection, RecordUnit, TimeSeries, UnitOfTimes, word_of_time};
 use base::diagnostic::{At, Diagnostic, Span};
 use base::names::short;
 use base::text_file::read_regular;
 use deck::Deck;
 use deck::amplitudes::Amplitude;
+use deck::output::Units;
 use deck::words::ColumnName;
 use sha2::{Digest, Sha256};
 use std::path::Path;
@@ -35,8 +36,8 @@ impl Record {
 /// is to say about the files.
 pub fn load_records(deck: &Deck, folder: &Path) -> (Vec<Option<Record>>, Vec<Diagnostic>) {
     let mut problems = Vec::new();
-    let seconds = deck.units.as_ref().map(|units| units.value.scales()[2]);
-    let all = deck.amplitudes.0.iter().map(|(_, amplitude)| match load(amplitude, folder, seconds) {
+    let units = deck.units.as_ref().map(|units| &units.value);
+    let all = deck.amplitudes.0.iter().map(|(_, amplitude)| match load(amplitude, folder, units) {
         Ok(Some((record, warnings))) => {
             problems.extend(warnings);
             Some(record)
@@ -54,7 +55,7 @@ pub fn load_records(deck: &Deck, folder: &Path) -> (Vec<Option<Record>>, Vec<Dia
 fn load(
     amplitude: &Amplitude,
     folder: &Path,
-    time_unit: Option<f64>,
+    units: Option<&Units>,
 ) -> Result<Option<(Record, Vec<Diagnostic>)>, Vec<Diagnostic>> {
     let Some(file) = &amplitude.file else { return Ok(None) };
     let time_step = amplitude.time_step.as_ref();
@@ -76,12 +77,14 @@ fn load(
         ColumnName::Number(number) => RecordColumn::Number(*number),
     };
     let columns = amplitude.columns.iter().flat_map(|columns| &columns.values).map(|at| column(&at.value)).collect();
+    let time_unit = units.map(|units| units.scales()[2]);
     let selection = RecordSelection { columns, time_step: time_step.map(|step| step.value), rows, time_unit };
     let mut series = record::read(&path, &bytes, &selection).map_err(|found| at_file(found, &file.span))?;
     if let Some(at) = &amplitude.unit {
         series.unit = Some(given_unit(at, series.unit)?);
     }
-    let warnings = warnings_of(amplitude, &file.value, &series);
+    let mut warnings = warnings_of(amplitude, &file.value, &series);
+    warnings.extend(series.times.as_ref().map(|times| of_times(times, file, units.map_or("", |units| units.label()))));
     let record = Record { path, points: series.points, unit: series.unit, digest: Sha256::digest(&bytes).into() };
     Ok(Some((record, warnings)))
 }
@@ -91,9 +94,9 @@ fn given_unit(at: &At<String>, header: Option<RecordUnit>) -> Result<RecordUnit,
     let unit = RecordUnit::new(at.value.trim());
     if unit.known.is_none() {
         let error = Diagnostic::error(format!("`{}` is no unit of a motion", at.value)).at(&at.span);
-        return Err(vec![
-            error.hint("known: g, gal, and lengths such as m, cm, mm, in or ft alone, per s and per s2: \"cm/s2\""),
-        ]);
+        return Err(vec![error.hint(
+            "known: g, mg, %g, gal, and lengths such as m, cm, mm, in or ft alone, per s and per s2: \"cm/s2\"",
+        )]);
     }
     match header.filter(|header| header.known.is_some() && header.known != unit.known) {
         Some(header) => {
@@ -102,6 +105,27 @@ fn given_unit(at: &At<String>, header: Option<RecordUnit>) -> Result<RecordUnit,
         }
         None => Ok(unit),
     }
+}
+
+/// Notes converted times, and warns of an unknown unit of times.
+fn of_times(times: &UnitOfTimes, file: &At<String>, units: &str) -> Diagnostic {
+    let name = &file.value;
+    let said = match times {
+        UnitOfTimes::Converted(seconds) => {
+            let word = word_of_time(*seconds);
+            Diagnostic::note(format!(
+                "the times of the record `{name}` are in {word}, and are converted to the units {units}"
+            ))
+            .hint("correct the unit in the file if they are in another one")
+        }
+        UnitOfTimes::Unknown(word) => {
+            let message = format!(
+                "`{word}`, beside the times of the record `{name}`, is no unit of time: they count in the units {units}"
+            );
+            Diagnostic::warning(message).hint("write s, ms, us, min or h into the file, or remove the word")
+        }
+    };
+    said.at(&file.span)
 }
 
 /// Notes a subtracted offset, and a column that may be part of a sequence.

@@ -373,12 +373,22 @@ fn times_are_in_the_unit_that_is_asked_for() {
         ("time [ms],acc [g]\n0,1\n10,2\n", 0.01, 10.0),
         ("Time (s);acc\n0;1\n0.01;2\n", 0.01, 10.0),
         ("time,acc\nmsec,g\n0,1\n10,2\n", 0.01, 10.0),
+        ("t [milliseconds],a\n0,1\n10,2\n", 0.01, 10.0),
+        ("t (MSECS),a\n0,1\n10,2\n", 0.01, 10.0),
+        ("t [\u{b5}s],a\n0,1\n1e4,2\n", 0.01, 10.0),
+        ("t [ns],a\n0,1\n1e7,2\n", 0.01, 10.0),
+        ("t (minute),a\n0,1\n0.5,2\n", 30.0, 3e4),
+        ("t [h],a\n0,1\n0.5,2\n", 1800.0, 1.8e6),
+        ("t [furlongs],a\n0,1\n10,2\n", 10.0, 10.0),
         // Without a unit of the file, numbers stay.
         ("t,a\n0,1\n10,2\n", 10.0, 10.0),
     ] {
         for (unit, wanted) in [(1.0, in_seconds), (1e-3, in_milliseconds)] {
             let asked = RecordSelection { time_unit: Some(unit), ..select(&[], None) };
-            assert_eq!(points(text, &asked), [[0.0, 1.0], [wanted, 2.0]], "{text}");
+            let found = points(text, &asked);
+            // Quotients of powers of ten round.
+            assert!(found[0] == [0.0, 1.0] && found[1][1] == 2.0, "{text}");
+            assert!((found[1][0] / wanted - 1.0).abs() < 1e-15, "{text}");
         }
     }
 }
@@ -386,9 +396,14 @@ fn times_are_in_the_unit_that_is_asked_for() {
 /// The header of CSMIP names the unit in several ways.
 #[test]
 fn headers_of_csmip_name_their_unit() {
-    for unit in
-        ["in cm/sec2", "(UNITS: CM/SEC/SEC)", "(units: cm/sec2).", "approx 5 secs, units=cm/sec2(04),Format=(8F10.3)"]
-    {
+    for unit in [
+        "in cm/sec2",
+        "(UNITS: CM/SEC/SEC)",
+        "(units: cm/sec2).",
+        "approx 5 secs, units=cm/sec2(04),Format=(8F10.3)",
+        "units = cm/sec2",
+        "(Units : cm/sec2)",
+    ] {
         let text = format!("  3 POINTS OF ACCEL DATA EQUALLY SPACED AT   .020 SEC. {unit}\n  1.0 2.0 3.0\n");
         let found = read("r", text.as_bytes(), &select(&[], None)).unwrap();
         assert_eq!(found.points, [[0.0, 1.0], [0.02, 2.0], [0.04, 3.0]], "{unit}");

@@ -299,12 +299,15 @@ fn units_of_records_are_compared_with_the_deck() {
     // The peak of the pulse is 0.585.
     let [weak, strong] = [bare(1.0), bare(100.0)];
     let scaled = SHAKEN.replace("\"quake\" }", "\"quake\", scale = 9.81 }");
-    let cases: [(&str, &str, &str, &str, Option<&str>); 27] = [
+    let cases: [(&str, &str, &str, &str, Option<&str>); 30] = [
         (si, &scaled, "scale = 9.81", &g, Some("the scale 9.81 does so once more")),
         (si, &scaled, "unit = \"g\"", &g, Some("its unit converts it to the units SI")),
         (si, &scaled, "unit = \"g\"\nscale = 1.5", &g, Some("its unit converts it to the units SI")),
         (si, SHAKEN, "unit = \"g\"\nscale = 1.5", &g, None),
-        (si, SHAKEN, "", &weak, Some("`unit = \"g\"`")),
+        (si, SHAKEN, "", &weak, Some("note: the record `record.csv` names no unit")),
+        (si, SHAKEN, "", &bare(0.1), Some("warning: the record `record.csv` names no unit")),
+        (si, SHAKEN, "", &bare(0.1), Some("`scale = 1.0` says that it is in the units of the deck")),
+        (si, SHAKEN, "scale = 1.0", &bare(0.1), None),
         (si, SHAKEN, "", &strong, Some("names no unit")),
         (si, SHAKEN, "", &bare(5.0), None),
         (si, SHAKEN, "unit = \"m/s2\"", &weak, None),
@@ -467,6 +470,35 @@ fn a_unit_leaves_the_scale_to_be_a_factor() {
     }
     let (code, found) = run(folder, &deck(si, "scale = 1.5"), &at2, "out");
     assert!(code == 0 && found.contains("`unit = \"g\"`"), "{found}");
+}
+
+/// A header in seconds shakes a deck of milliseconds as the same points in its units do: 1 m/s² is 1e-3 mm/ms².
+#[test]
+fn times_of_a_header_are_converted_to_the_units_of_the_deck() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let values: String = (0..=400).map(|k| format!("{:.6}\n", pulse(k))).collect();
+    let peer = format!("A\nB\nACCELERATION TIME SERIES IN UNITS OF CM/SEC2\nNPTS= 401, DT= .005 SEC\n{values}");
+    let deck = |keys: &str| {
+        let oscillator = OSCILLATOR.replace("end_time = 2.0\ntime_step = 0.005", "end_time = 2000.0\ntime_step = 5.0");
+        let oscillator = oscillator.replace("stiffness = 500.0", "stiffness = 500.0e-6");
+        let amplitude = "[amplitudes.quake]\nkind = \"table\"\nfile = \"record.csv\"\nafter = \"zero\"\n";
+        format!("units = \"mm-kg-ms\"\n{oscillator}{SHAKEN}{amplitude}{keys}\n")
+    };
+    let (code, said) = run(folder, &deck(""), &peer, "header");
+    let note = "note: the times of the record `record.csv` are in seconds, and are converted to the units mm-kg-ms";
+    assert!(code == 0 && said.contains(note), "{said}");
+    let (code, said) = run(folder, &deck("time_step = 5.0\nscale = 1e-5"), &values, "by_hand");
+    assert!(code == 0 && !said.contains("times"), "{said}");
+    let [header, by_hand] = ["header", "by_hand"].map(|out| rows(folder, out, "x"));
+    let most = by_hand.iter().map(|x| (x - 1.0).abs()).fold(0.0, f64::max);
+    // The factors of times and values round.
+    assert!(most > 0.0 && header.iter().zip(&by_hand).all(|(a, b)| (a - b).abs() < 1e-12 * most.max(1.0)), "{most}");
+    let (code, said) = run(folder, &deck("time_step = 0.005"), &peer, "out");
+    assert!(code == 3 && said.contains("the header says 0.005 s, in the unit of the deck 5:"), "{said}");
+    let columns: String = (0..=400).map(|k| format!("{},{:.6}\n", 5 * k, pulse(k))).collect();
+    let (code, said) = run(folder, &deck("scale = 1e-5"), &format!("t [ticks],a\n{columns}"), "out");
+    assert!(code == 0 && said.contains("warning: `ticks`, beside the times of the record"), "{said}");
 }
 
 /// A record that ends at less than a thousandth of its peak has faded: no warning that its last value is held.

@@ -1,6 +1,6 @@
 //! Records in other units than the deck. Headers of data bases give the unit; values are converted where the deck has `units` and no scale.
 
-use super::shaking::{Use, check_bare, is_converted_twice};
+use super::shaking::{BareRecords, Use, is_converted_twice};
 use crate::record::{MotionQuantity, RecordUnit};
 use crate::records::Record;
 use crate::report::Report;
@@ -24,13 +24,14 @@ pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut 
             report.error_with::<()>(&at.span, message, "leave it out, and give `scale`");
         }
     }
+    let mut bare = BareRecords::new();
     for used in uses(deck) {
         let Some(name) = used.amplitude else { continue };
         let Some(index) = deck.amplitudes.position(name) else { continue };
         let words = &deck.amplitudes.0[index].1;
         let Some(record) = records.get(index).and_then(Option::as_ref) else { continue };
         let Some(unit) = &record.unit else {
-            check_bare(deck, &used, (words, record), report);
+            bare.add(deck, used, (words, record));
             continue;
         };
         let file = words.file.as_ref().map_or("", |file| file.value.as_str());
@@ -68,6 +69,7 @@ pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut 
         }
         check_factor(deck, &used, (file, unit), given.iter().any(Option::is_some).then_some(factor), report);
     }
+    bare.check(deck, report);
 }
 
 /// True for a record of the ground that begins with the first dynamic stage. Its times count from 0, and it moves nothing but the ground. The

@@ -12,9 +12,10 @@ use deck::words::Maybe;
 /// Standard gravity, in m/s².
 const G: f64 = 9.80665;
 
-/// Peaks of accelerations that records of earthquakes have, in g. A structure is seldom computed under less than the first, and no
-/// instrument has measured more than the second. A record in g that is read in m/s² has 0.102 times its strength, one in cm/s² 100 times.
-const PEAKS: [f64; 2] = [0.1, 5.0];
+/// Peaks of accelerations that records of earthquakes have, in g. Below the first a structure is hardly ever computed, seldom below the
+/// second, and no instrument has measured more than the last. A record in g that is read in m/s² has 0.102 times its strength, one in cm/s²
+/// 100 times.
+const PEAKS: [f64; 3] = [0.02, 0.1, 5.0];
 
 /// A scale is a conversion if it is one up to this part of it: 9.81 for 9.80665.
 const ROUNDED: f64 = 0.01;
@@ -39,27 +40,56 @@ fn acceleration(deck: &Deck) -> Option<f64> {
     Some(length / (time * time))
 }
 
-/// Warns of accelerations from a file that names no unit, if no earthquake has their peak in the units of the deck. A scale says that their
-/// unit has been thought of.
-pub fn check_bare(deck: &Deck, used: &Use, (words, record): (&Amplitude, &Record), report: &mut Report) {
-    let is_scaled = words.scale.is_some() || used.scale.is_some();
-    let Some(unit) = acceleration(deck).filter(|_| used.quantity == MotionQuantity::Acceleration && !is_scaled) else {
-        return;
-    };
-    let largest = record.points.iter().fold(0.0, |largest: f64, [_, value]| largest.max(value.abs()));
-    let peak = largest * unit / G;
-    if peak == 0.0 || (PEAKS[0]..=PEAKS[1]).contains(&peak) {
-        return;
+/// Uses of records that name no unit, with their peaks in the unit of the file and in g.
+pub struct BareRecords<'d>(Vec<(Use<'d>, &'d str, [f64; 2])>);
+
+impl<'d> BareRecords<'d> {
+    /// None yet.
+    pub fn new() -> Self {
+        BareRecords(Vec::new())
     }
-    let (file, what) = (words.file.as_ref().map_or("", |file| file.value.as_str()), used.what);
-    let label = deck.units.as_ref().map_or("", |units| units.value.label());
-    let message = format!(
-        "the record `{file}` names no unit: in the units {label} its peak, {}, moves {what} with {} g",
-        short(largest),
-        to_digits(peak, 3)
-    );
-    let hint = "give the amplitude the unit of the file, such as `unit = \"g\"`, \"cm/s2\" or \"m/s2\"";
-    report.warn(used.place, message, hint);
+
+    /// Adds a use that gives accelerations. A scale says that the unit has been thought of.
+    pub fn add(&mut self, deck: &Deck, used: Use<'d>, (words, record): (&'d Amplitude, &Record)) {
+        let is_scaled = words.scale.is_some() || used.scale.is_some();
+        let Some(unit) = acceleration(deck).filter(|_| used.quantity == MotionQuantity::Acceleration && !is_scaled)
+        else {
+            return;
+        };
+        let largest = record.points.iter().fold(0.0, |largest: f64, [_, value]| largest.max(value.abs()));
+        let file = words.file.as_ref().map_or("", |file| file.value.as_str());
+        self.0.push((used, file, [largest, largest * unit / G]));
+    }
+
+    /// Warns if no earthquake has the peak of the strongest record that moves the ground, supports or joints, in the units of the deck. The
+    /// other components of a station may be weak. Notes a peak that is rare.
+    pub fn check(self, deck: &Deck, report: &mut Report) {
+        let label = deck.units.as_ref().map_or("", |units| units.value.label());
+        let mut strongest: Vec<(Use, &str, [f64; 2])> = Vec::new();
+        for one in self.0 {
+            match strongest.iter_mut().find(|of| of.0.what == one.0.what) {
+                Some(of) if of.2[1] < one.2[1] => *of = one,
+                Some(_) => {}
+                None => strongest.push(one),
+            }
+        }
+        for (used, file, [largest, peak]) in strongest {
+            if peak == 0.0 || (PEAKS[1]..=PEAKS[2]).contains(&peak) {
+                continue;
+            }
+            let message = format!(
+                "the record `{file}` names no unit: in the units {label} its peak, {}, moves {} with {} g",
+                short(largest),
+                used.what,
+                to_digits(peak, 3)
+            );
+            let hint = "`scale = 1.0` says that it is in the units of the deck; else give the unit of the file, such as `unit = \"g\"`, \"cm/s2\" or \"m/s2\"";
+            match (PEAKS[0]..=PEAKS[2]).contains(&peak) {
+                true => report.note(used.place, message, hint),
+                false => report.warn(used.place, message, hint),
+            }
+        }
+    }
 }
 
 /// Warns of a record that two of the header or `unit`, the scale of the amplitude and the scale of its use convert. True if it does.

@@ -192,9 +192,10 @@ fn csmip(text: &Text, line: TextLine, words: &str) -> Result<Header, Fault> {
             "this line says how many accelerations follow and how far apart they are, and one of the two is no number";
         return Err(text.fault(message, line.number));
     };
-    // As `in cm/sec2`, `(UNITS: CM/SEC/SEC)` or `units=cm/sec2(04)`.
-    let unit = [" IN ", "UNITS:", "UNITS="].iter().find_map(|before| after.split_once(before));
-    let is_around = |c: char| c.is_whitespace() || [',', ';', '(', ')'].contains(&c);
+    // As `in cm/sec2`, `(UNITS: CM/SEC/SEC)`, `units=cm/sec2(04)` or `units = cm/sec2`.
+    let named = || after.split_once("UNITS").map(|(before, rest)| (before, rest.trim_start()));
+    let unit = after.split_once(" IN ").or_else(|| named().filter(|(_, rest)| rest.starts_with([':', '='])));
+    let is_around = |c: char| c.is_whitespace() || [',', ';', '(', ')', ':', '='].contains(&c);
     let unit = unit.and_then(|(_, unit)| unit.split(is_around).find(|part| !part.is_empty()));
     let unit = unit.map(|unit| RecordUnit::new(&unit.trim_end_matches('.').to_ascii_lowercase()));
     Ok(Header {

@@ -10,7 +10,7 @@ mod rows;
 mod unit;
 
 pub use rows::MOST_FAULTS;
-pub use unit::{MotionQuantity, RecordUnit};
+pub use unit::{MotionQuantity, RecordUnit, word_of_time};
 
 use base::diagnostic::Diagnostic;
 use base::names::{nearest, quoted};
@@ -50,6 +50,17 @@ pub struct TimeSeries {
     pub offset: Option<f64>,
     /// The number of values per line, if the lines look like one sequence and the column is only a part of it.
     pub sequence: Option<usize>,
+    /// The unit of the times in the file, where it is not the one wanted.
+    pub times: Option<UnitOfTimes>,
+}
+
+/// A unit of times that a file names.
+#[derive(Debug, Clone, PartialEq)]
+pub enum UnitOfTimes {
+    /// So many seconds; the times are converted.
+    Converted(f64),
+    /// No unit of time; the times are as the file has them.
+    Unknown(String),
 }
 
 /// Reads a record from the bytes of a file whose path, for messages, is `path`.
@@ -85,11 +96,17 @@ fn read_text(path: &str, bytes: &[u8], selection: &RecordSelection) -> Result<Ti
     if let (Some(given), Some(header)) = (selection.time_step, &header)
         && (given - step).abs() > 1e-6 * step
     {
-        let message = format!("`time_step` is {given}, and the header says {step}: leave `time_step` out");
+        let own = match selection.time_unit.filter(|unit| *unit != 1.0) {
+            Some(_) => format!("{} s, in the unit of the deck {step}", header.step),
+            None => step.to_string(),
+        };
+        let message = format!("`time_step` is {given}, and the header says {own}: leave `time_step` out");
         return Err(vec![text.fault(message, header.last_line)]);
     }
     let points = rows::read_rows(text, header.as_ref(), step)?;
     let mut series = with_unit(points, header);
+    series.times =
+        in_header.zip(selection.time_unit).filter(|(_, unit)| *unit != 1.0).map(|_| UnitOfTimes::Converted(1.0));
     if series.unit.is_none() && has_extension(path, "at2") {
         series.unit = Some(RecordUnit::new("g"));
     }
@@ -98,11 +115,13 @@ fn read_text(path: &str, bytes: &[u8], selection: &RecordSelection) -> Result<Ti
 
 /// The points in the unit of the header, without the offset of the instrument.
 fn with_unit(mut points: Vec<[f64; 2]>, header: Option<header::Header>) -> TimeSeries {
-    let Some(header) = header else { return TimeSeries { points, unit: None, offset: None, sequence: None } };
+    let Some(header) = header else {
+        return TimeSeries { points, unit: None, offset: None, sequence: None, times: None };
+    };
     points.iter_mut().for_each(|[_, value]| *value *= header.factor);
     let offset = header.has_offset.then(|| points.iter().map(|[_, value]| value).sum::<f64>() / points.len() as f64);
     points.iter_mut().for_each(|[_, value]| *value -= offset.unwrap_or(0.0));
-    TimeSeries { points, unit: header.unit, offset, sequence: None }
+    TimeSeries { points, unit: header.unit, offset, sequence: None, times: None }
 }
 
 /// True for the names of files from the PEER data bases.
@@ -131,15 +150,21 @@ fn read_columns(
         blank: 0,
         jumps: None,
         unit: None,
-        seconds: None,
+        times: None,
     };
     let mut points = reader.points(selection);
     if reader.faults.is_empty() {
-        if let Some((seconds, wanted)) = reader.seconds.zip(selection.time_unit).filter(|(own, wanted)| own != wanted) {
-            points.iter_mut().for_each(|[time, _]| *time *= seconds / wanted);
-        }
+        let named = reader.times.as_deref().zip(selection.time_unit);
+        let times = named.and_then(|(name, wanted)| match unit::seconds_of(name) {
+            Some(seconds) if seconds == wanted => None,
+            Some(seconds) => {
+                points.iter_mut().for_each(|[time, _]| *time *= seconds / wanted);
+                Some(UnitOfTimes::Converted(seconds))
+            }
+            None => Some(UnitOfTimes::Unknown(name.to_owned())),
+        });
         let sequence = reader.jumps.filter(Jumps::is_sequence).map(|_| reader.columns);
-        return Ok(TimeSeries { points, unit: unit.or(reader.unit), offset: None, sequence });
+        return Ok(TimeSeries { points, unit: unit.or(reader.unit), offset: None, sequence, times });
     }
     Err(reader.faults)
 }
@@ -173,8 +198,8 @@ struct Reader<'t> {
     jumps: Option<Jumps>,
     /// The unit that the name of the value's column, or the line below the names, gives it.
     unit: Option<RecordUnit>,
-    /// The unit of the column of times, in seconds, where it is named likewise.
-    seconds: Option<f64>,
+    /// The unit of the column of times, where it is named likewise.
+    times: Option<String>,
 }
 
 /// The places of the wanted columns in a line, from 0.
@@ -208,7 +233,7 @@ impl<'t> Reader<'t> {
             units.get(place).or(in_name).and_then(|name| inner_name(name))
         };
         self.unit = unit_of(places.value).map(RecordUnit::new).filter(|unit| unit.known.is_some());
-        self.seconds = places.time.and_then(unit_of).and_then(unit::seconds_of);
+        self.times = places.time.and_then(unit_of).map(str::to_owned);
         let may_be_sequence = selection.rows.is_none() && names.is_empty() && count > 2 && places.time.is_none();
         self.jumps = may_be_sequence.then(Jumps::default);
         let mut points: Vec<[f64; 2]> = Vec::with_capacity(self.text.bytes.len() / (line.bytes.len() + 1) + 1);
@@ -245,9 +270,7 @@ impl<'t> Reader<'t> {
             words.iter().map(|word| word.text().trim_matches(['"', '\'', ' ']).to_owned()).collect()
         };
         let mut names = texts(&words);
-        if self.separator.is_none() {
-            join_units(&mut names);
-        }
+        let is_blank = self.separator.is_none();
         let (mut next, mut units) = (self.next_line(), Vec::new());
         if let Some(line) = next
             && self.split(line).iter().all(is_name)
@@ -262,6 +285,9 @@ impl<'t> Reader<'t> {
         // Names may stand between other separators than numbers do.
         if separator(line) != self.separator && self.split(line).len() == 1 {
             self.separator = separator(line);
+        }
+        if is_blank && names.len() != self.split(line).len() {
+            join_units(&mut names);
         }
         Some((names, units, line))
     }

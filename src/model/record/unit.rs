@@ -52,14 +52,26 @@ impl RecordUnit {
 
 /// The seconds of a unit of time, as the head of a column names it.
 pub fn seconds_of(name: &str) -> Option<f64> {
-    match name.to_ascii_uppercase().as_str() {
-        "S" | "SEC" | "SECS" | "SECOND" | "SECONDS" => Some(1.0),
-        "MS" | "MSEC" | "MILLISECONDS" => Some(1e-3),
-        "US" | "\u{b5}S" | "\u{3bc}S" | "MICROSECONDS" => Some(1e-6),
-        "MIN" | "MINUTES" => Some(60.0),
-        _ => None,
-    }
+    let name = name.trim_end_matches('.').to_ascii_uppercase();
+    // One name has no plural: "S" is a second.
+    let singular = name.strip_suffix('S').unwrap_or(&name);
+    TIMES.iter().find(|(names, _)| names.contains(&singular) || names.contains(&&*name)).map(|(_, seconds)| *seconds)
 }
+
+/// The word for a unit of time of so many seconds.
+pub fn word_of_time(seconds: f64) -> &'static str {
+    TIMES.iter().find(|(_, own)| *own == seconds).map_or("another unit", |(names, _)| names[0])
+}
+
+/// Names of units of time in the singular, and their seconds.
+const TIMES: [(&[&str], f64); 6] = [
+    (&["seconds", "S", "SEC", "SECOND"], 1.0),
+    (&["milliseconds", "MS", "MSEC", "MILLISEC", "MILLISECOND"], 1e-3),
+    (&["microseconds", "US", "USEC", "\u{b5}S", "\u{3bc}S", "MICROSEC", "MICROSECOND"], 1e-6),
+    (&["nanoseconds", "NS", "NSEC", "NANOSECOND"], 1e-9),
+    (&["minutes", "MIN", "MINUTE"], 60.0),
+    (&["hours", "H", "HR", "HOUR"], 3600.0),
+];
 
 fn known(name: &str) -> Option<(MotionQuantity, f64)> {
     let name = &name.replace('²', "2");
