@@ -91,8 +91,8 @@ fn a_sweep_is_its_runs() {
         "half",
         "kinetic",
         "nothing",
-        "warnings",
         "reason",
+        "warnings",
     ];
     assert_eq!(summary[0], head);
     let bodies = rows(folder, "alone/bodies.csv");
@@ -471,7 +471,8 @@ fn warnings_of_cases_are_listed() {
         let (said, told) = (text(&output.stderr), text(&output.stdout));
         assert!(output.status.success() && told.starts_with("3 cases: 3 done, warnings in 2; "), "{told}{said}");
         assert!(
-            said.lines().count() == 1 && said.starts_with("warning: cases 2, 3: numerical dissipation: "),
+            said.lines().count() == 1
+                && said.starts_with("warning: cases 2, 3, with the numbers of case 2: numerical dissipation: "),
             "{said}"
         );
         assert!(text(&rdsolve(folder, &["sweep", "s.toml", "-o", out, "--quiet"]).stderr).is_empty());

@@ -345,7 +345,9 @@ fn tell<'t>(what: &str, report: fn(&str), texts: impl Iterator<Item = (usize, &'
         let first: Vec<String> = one.cases.iter().take(NAMED).map(|case| (case + 1).to_string()).collect();
         let more = if count > NAMED { format!(" and {} more", count - NAMED) } else { String::new() };
         let word = if count > 1 { "cases" } else { "case" };
-        report(&format!("{word} {}{more}: {}", first.join(", "), one.text));
+        let of =
+            if one.differ && count > 1 { format!(", with the numbers of case {}", first[0]) } else { String::new() };
+        report(&format!("{word} {}{more}{of}: {}", first.join(", "), one.text));
     }
     if all.len() > TOLD {
         say(&format!("… and {} more {what}: see summary.csv", all.len() - TOLD));

@@ -9,6 +9,8 @@ pub struct Alike<'t> {
     pub text: &'t str,
     /// The cases, counted from 0, each once.
     pub cases: Vec<usize>,
+    /// True where later texts have other numbers.
+    pub differ: bool,
 }
 
 /// Merges texts of cases that differ in numbers alone, in the order of their first cases.
@@ -18,10 +20,12 @@ pub fn alike<'t>(texts: impl Iterator<Item = (usize, &'t str)>) -> Vec<Alike<'t>
     for (case, text) in texts {
         let place = *places.entry(without_numbers(text)).or_insert(all.len());
         if place == all.len() {
-            all.push(Alike { text, cases: Vec::new() });
+            all.push(Alike { text, cases: Vec::new(), differ: false });
         }
-        if all[place].cases.last() != Some(&case) {
-            all[place].cases.push(case);
+        let one = &mut all[place];
+        one.differ |= one.text != text;
+        if one.cases.last() != Some(&case) {
+            one.cases.push(case);
         }
     }
     all
@@ -54,13 +58,15 @@ mod tests {
             (2, "contact `blow3`, 2e-6: 0.1."),
             (2, "dissipation: 3 % of it"),
             (2, "dissipation: 3 % of it"),
+            (3, "contact `blow3`, 2e-6: 0.1."),
         ];
         let found = alike(texts.into_iter());
-        let found: Vec<(&str, &[usize])> = found.iter().map(|one| (one.text, &one.cases[..])).collect();
-        let wanted: [(&str, &[usize]); 3] = [
-            ("dissipation: 14 % of it", &[0, 1, 2]),
-            ("contact `blow2`, 1.075e6: 5e-5.", &[0, 2]),
-            ("contact `blow3`, 2e-6: 0.1.", &[2]),
+        let found: Vec<(&str, &[usize], bool)> =
+            found.iter().map(|one| (one.text, &one.cases[..], one.differ)).collect();
+        let wanted: [(&str, &[usize], bool); 3] = [
+            ("dissipation: 14 % of it", &[0, 1, 2], true),
+            ("contact `blow2`, 1.075e6: 5e-5.", &[0, 2], true),
+            ("contact `blow3`, 2e-6: 0.1.", &[2, 3], false),
         ];
         assert_eq!(found, wanted);
     }

@@ -38,7 +38,7 @@ impl CaseState {
 pub struct CaseOutcome {
     /// Its state.
     pub state: CaseState,
-    /// The warnings about its deck and its results; none of a case without a result.
+    /// The warnings about its deck and its results, in one line each; none of a case without a result.
     pub warnings: Vec<String>,
 }
 
@@ -46,11 +46,6 @@ impl CaseOutcome {
     /// The outcome of a case without a result.
     pub fn without_result(state: CaseState) -> CaseOutcome {
         CaseOutcome { state, warnings: Vec::new() }
-    }
-
-    /// The warnings in one line.
-    pub fn warnings_in_line(&self) -> String {
-        self.warnings.iter().map(|warning| one_line(warning)).collect::<Vec<_>>().join("; ")
     }
 }
 

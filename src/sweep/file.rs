@@ -4,7 +4,6 @@ use super::case_state::CaseState;
 use base::diagnostic::{Diagnostic, Source, Span};
 use base::names::{nearest, quoted};
 use deck::number_slips;
-use std::collections::HashSet;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -139,6 +138,9 @@ const OF_VARY: [&str; 2] = ["table", "sample"];
 const RANGE: [&str; 3] = ["from", "to", "steps"];
 const SAMPLE: [&str; 3] = ["kind", "cases", "seed"];
 const COLLECTED: [&str; 6] = ["at", "mode", "quantity", "stage", "peak", "time"];
+
+/// The columns that every summary has.
+const TAKEN: [&str; 4] = ["case", "status", "reason", "warnings"];
 
 /// The largest number of values of an axis, and of cases.
 pub const MOST_CASES: usize = 1_000_000;
@@ -357,8 +359,7 @@ impl Reader<'_> {
                 format!("`{name}` needs `at`, `quantity` and `peak` or `time`; or `mode` and `quantity`"),
             );
         }
-        let taken: HashSet<&str> = HashSet::from(["case", "status", "reason"]);
-        if taken.contains(name.as_str()) {
+        if TAKEN.contains(&name.as_str()) {
             self.error(&key.span(), format!("`{name}` is a column of the summary already"));
         }
         Some(Collected { name, at: at?, quantity: quantity?, stage, when: when? })
@@ -428,6 +429,10 @@ mod tests {
         );
         let least = of("Range")["properties"]["steps"]["maximum"].as_u64();
         assert_eq!(least, Some(MOST_CASES as u64));
-        assert_eq!(schema["properties"]["collect"]["propertyNames"]["not"]["enum"][1], "status");
+        assert_eq!(schema["properties"]["collect"]["propertyNames"]["not"]["enum"], serde_json::json!(TAKEN));
+        for taken in TAKEN {
+            let collect = format!("{taken} = {{ at = 'b', quantity = 'ux', time = 'end' }}");
+            assert_eq!(read(&format!("deck = 'd'\n[vary]\na = [1]\n[collect]\n{collect}\n")), 1, "{taken}");
+        }
     }
 }

@@ -106,8 +106,8 @@ impl SweepFolder {
         self.write("cases.csv", header.map(str::to_owned).collect(), cases.values.iter().enumerate().map(row))
     }
 
-    /// Writes `summary.csv` (the varied entries, the state, the collected numbers and the warnings of each case) and its page. It includes the cases
-    /// completed by other processes meanwhile: the last writer writes all complete cases.
+    /// Writes `summary.csv` (the varied entries, the state, the collected numbers, the reason and the warnings of each case) and its page.
+    /// It includes the cases completed by other processes meanwhile: the last writer writes all complete cases.
     ///
     /// # Errors
     /// A table cannot be read, or the file cannot be written; the error names it.
@@ -163,7 +163,7 @@ impl SweepFolder {
             .chain(cases.keys.iter().cloned())
             .chain(["status".to_owned()])
             .chain(wanted.iter().map(|one| one.name.clone()))
-            .chain(["warnings".to_owned(), "reason".to_owned()])
+            .chain(["reason".to_owned(), "warnings".to_owned()])
             .collect();
         let row = |(case, values): (usize, &Vec<String>)| {
             let (outcome, numbers) = match self.records.find(&self.names[case]) {
@@ -177,8 +177,8 @@ impl SweepFolder {
             let state = outcome.state.word().to_owned();
             let mut row = [vec![(case + 1).to_string()], values.clone(), vec![state]].concat();
             row.extend(numbers);
-            row.push(outcome.warnings_in_line());
             row.push(outcome.state.reason().to_owned());
+            row.push(outcome.warnings.join("; "));
             Ok((row, outcome))
         };
         let all = cases.values.par_iter().enumerate().map(row).collect::<io::Result<Vec<_>>>()?;
@@ -234,7 +234,7 @@ fn found(folder: &Path, result: &str) -> CaseOutcome {
         Some(_) => CaseState::Failed(reason),
     };
     let warnings = result["warnings"].as_array().into_iter().flatten().filter_map(Value::as_str);
-    CaseOutcome { state, warnings: warnings.map(str::to_owned).collect() }
+    CaseOutcome { state, warnings: warnings.map(one_line).collect() }
 }
 
 /// True for a case whose tables are complete.

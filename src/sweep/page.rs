@@ -8,7 +8,7 @@ const SCRIPT: &str = include_str!("page.js");
 
 /// The page of a summary: the header and the rows of summary.csv, the folders of the cases, and how many columns vary and are collected.
 pub fn page(header: &[String], rows: &[Vec<String>], folders: &[&str], [varied, collected]: [usize; 2]) -> String {
-    // The columns are: case, varied entries, status, collected numbers, reason.
+    // The columns are: case, varied entries, status, collected numbers, reason, warnings.
     let all = json!({
         "columns": header,
         "rows": rows,
