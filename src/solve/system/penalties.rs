@@ -39,12 +39,17 @@ impl Diagonals {
     /// Stores the forces of the equations for drives and for models `at_rest`, and sets rounding errors to zero. Rounding stems from gaps
     /// times the earlier penalty factor, and for moments also from the force of the same joint.
     fn take(&mut self, system: &System, nodes: &[Node], multipliers: &Multipliers, at_rest: bool) {
-        if !at_rest && !system.joints.iter().any(|joint| joint.drive.is_some()) || system.joints.is_empty() {
+        if system.joints.is_empty() {
             return;
         }
         let farthest = |from: &Vec3| nodes.iter().map(|node| (node.x - from).amax()).fold(0.0, f64::max);
-        let (reach, extent) = (farthest(&Vec3::zeros()), nodes.first().map_or(0.0, |node| farthest(&node.x)));
+        // All equations ask for the size, forces or not.
+        let extent = nodes.first().map_or(0.0, |node| farthest(&node.x));
         self.extent = extent;
+        if !at_rest && !system.joints.iter().any(|joint| joint.drive.is_some()) {
+            return;
+        }
+        let reach = farthest(&Vec3::zeros());
         for (joint, first) in system.numbered() {
             let rows = first..first + joint.equations.len();
             let all = || joint.equations.iter().zip(&multipliers.values[rows.clone()]);
