@@ -1,7 +1,9 @@
 //! The analysis and its integration scheme in words.
 
 use super::explanation::Explanation;
+use super::quantities::symbol;
 use super::response;
+use base::quantities::{Unit, UnitSystem};
 use model::{Analysis, AnalysisKind, ArcLength, DIRECTIONS, ModeExtent, Model, StepLength};
 
 /// Adds lines about the analysis.
@@ -16,6 +18,7 @@ pub fn explain(text: &mut Explanation, model: &Model) {
         (AnalysisKind::Static, StepLength::ArcLength(control)) => text.add("analysis", path(model, control)),
         (AnalysisKind::Static, _) => text.add("analysis", format!("static, to t = {end} in {steps} load steps")),
         (AnalysisKind::Dynamic, step_length) => {
+            let of_time = symbol(Unit::Time, model.output.units.as_deref().and_then(UnitSystem::find));
             let how = match step_length {
                 StepLength::StabilityLimited { fraction } => {
                     format!("in steps of {fraction} of the critical time step")
@@ -23,9 +26,9 @@ pub fn explain(text: &mut Explanation, model: &Model) {
                 StepLength::ErrorControlled { tolerance, .. } => {
                     format!("in automatic steps, for a relative error of {tolerance} at the end")
                 }
-                _ => format!("in {steps} steps of {}", analysis.nominal_step()),
+                _ => format!("in {steps} steps of {}{of_time}", analysis.nominal_step()),
             };
-            text.add("analysis", format!("dynamic, to t = {end} {how}"));
+            text.add("analysis", format!("dynamic, to t = {end}{of_time} {how}"));
             let chosen = if model.solution.scheme_is_chosen { ", chosen for automatic steps" } else { "" };
             text.add("scheme", format!("{}{chosen}", model.solution.scheme.in_words()));
             text.notes.extend(model.solution.scheme.note().map(str::to_owned));

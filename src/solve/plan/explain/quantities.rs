@@ -23,7 +23,7 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
     let excitation = Excitation::new(model);
     let times = times(model);
     text.computed.extend(loads(model, &excitation, &times, units).map(|line| ("loads", line)));
-    let turning = centrifugal(model, system, &excitation, &times);
+    let turning = centrifugal(model, system, (&excitation, &times), units);
     text.computed.extend(turning.into_iter().map(|line| ("centrifugal", line)));
     let motions = motions(model, &excitation, &times, units);
     let more = motions.len().saturating_sub(LISTED);
@@ -34,7 +34,7 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
 }
 
 /// The symbol of a unit behind a number, if the deck has units.
-fn symbol(unit: Unit, units: Option<&UnitSystem>) -> String {
+pub fn symbol(unit: Unit, units: Option<&UnitSystem>) -> String {
     units.map_or(String::new(), |units| format!(" {}", unit.text(Some(units))))
 }
 
@@ -130,8 +130,15 @@ fn loads(model: &Model, excitation: &Excitation, times: &[f64], units: Option<&U
     Some(if line.is_empty() { "sum to zero".to_owned() } else { line.join(", ") })
 }
 
-/// "mass 12 about (0, 0, 1) at a speed up to 100; its forces at t = 0 sum to (0, 1200, 0)", a line for each centrifugal load.
-fn centrifugal(model: &Model, system: &System, excitation: &Excitation, times: &[f64]) -> Vec<String> {
+/// "mass 12 kg about (0, 0, 1) at a speed up to 100 rad/s; its forces at t = 0 sum to (0, 1200, 0) N", a line for each centrifugal load.
+fn centrifugal(
+    model: &Model,
+    system: &System,
+    (excitation, times): (&Excitation, &[f64]),
+    units: Option<&UnitSystem>,
+) -> Vec<String> {
+    let [of_mass, of_speed, of_force] =
+        [Unit::Mass, Unit::AngularVelocity, Unit::Force].map(|unit| symbol(unit, units));
     let nodes: Vec<Node> = model.nodes.iter().map(|node| Node::at_rest(node.x)).collect();
     let vector = |v: &Vec3| {
         let clean = |x: f64| short(if x.abs() < ROUNDING * v.amax() { 0.0 } else { x });
@@ -142,7 +149,10 @@ fn centrifugal(model: &Model, system: &System, excitation: &Excitation, times: &
         let speed = load.speed.abs() * factors.fold(0.0, f64::max);
         let [mass, about] = [to_digits(placed.mass(), 6), vector(&load.axis.direction)];
         let force = vector(&placed.total(speed * speed, &nodes));
-        format!("mass {mass} about {about} at a speed up to {}; its forces at t = 0 sum to {force}", short(speed))
+        let speed = short(speed);
+        format!(
+            "mass {mass}{of_mass} about {about} at a speed up to {speed}{of_speed}; its forces at t = 0 sum to {force}{of_force}"
+        )
     };
     model.loading.centrifugal.iter().zip(system.centrifugal()).map(line).collect()
 }
@@ -184,6 +194,7 @@ fn motions(model: &Model, excitation: &Excitation, times: &[f64], units: Option<
         let unit = (!node.is_number).then_some(if restraint.dof < 3 { linear } else { angular });
         Some((place, (what, unit), motion.amplitude, motion.scale))
     });
+    let of_time = symbol(Unit::Time, units);
     let line = |(place, (what, unit), amplitude, scale): (String, (&str, Option<Unit>), usize, f64)| {
         // A jump at the end acts in the next stage.
         let side = |time: f64| if time >= model.analysis.end_time { Side::Before } else { Side::After };
@@ -194,24 +205,25 @@ fn motions(model: &Model, excitation: &Excitation, times: &[f64], units: Option<
         if most == 0.0 {
             return None;
         }
-        let table = model.loading.amplitudes[amplitude].points().map_or(String::new(), table);
+        let table =
+            model.loading.amplitudes[amplitude].points().map_or(String::new(), |points| table(points, &of_time));
         let gravities = units
             .filter(|_| unit == Some(Unit::Acceleration))
             .map_or(String::new(), |units| format!(", {} g,", to_digits(most.abs() / units.gravity, 3)));
         let unit = unit.map_or(String::new(), |unit| symbol(unit, units)) + &gravities;
-        Some(format!("{place}: {what} up to {}{unit} at t = {}{table}", short(most), short(at)))
+        Some(format!("{place}: {what} up to {}{unit} at t = {}{of_time}{table}", short(most), short(at)))
     };
     ground.chain(supports).filter_map(line).collect()
 }
 
-/// "; a table of 4001 points 0.005 apart, to t = 20".
-fn table(points: &[[f64; 2]]) -> String {
+/// "; a table of 4001 points 0.005 s apart, to t = 20 s".
+fn table(points: &[[f64; 2]], of_time: &str) -> String {
     let ([first, last], count) = match points {
         [first, .., last] => ([first[0], last[0]], points.len()),
         _ => return String::new(),
     };
     let step = (last - first) / (count - 1) as f64;
     let is_even = points.windows(2).all(|pair| (pair[1][0] - pair[0][0] - step).abs() <= 1e-6 * step.abs());
-    let apart = if is_even && count > 2 { format!(" {} apart", short(step)) } else { String::new() };
-    format!("; a table of {count} points{apart}, to t = {}", short(last))
+    let apart = if is_even && count > 2 { format!(" {}{of_time} apart", short(step)) } else { String::new() };
+    format!("; a table of {count} points{apart}, to t = {}{of_time}", short(last))
 }
