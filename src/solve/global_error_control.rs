@@ -10,9 +10,7 @@ use super::recorder::Recorder;
 use super::run::{Run, SingleRun};
 use super::stop_watch::StopWatch;
 use super::warning::Warnings;
-use crate::tolerances::global_error::{
-    EARLY, FAR_APART, FEW, IN_TIME, LOOSER, MOST_EARLY, MOST_LONGER, MOST_RUNS, STRICTER, WITHIN,
-};
+use crate::tolerances::global_error::{EARLY, FEW, IN_TIME, LOOSER, MOST_EARLY, MOST_LONGER, MOST_RUNS, STRICTER};
 use base::snapshot::{Keep, keep, keep_either};
 use mechanics::state::State;
 use model::StepLength;
@@ -47,14 +45,6 @@ impl GlobalErrorControl {
     /// True if a pilot run tells the error of the current run: no whole run came before, and the times of comparison are the same.
     fn is_told_by(&self, pilot: &Kept) -> bool {
         self.error.others == self.error.early && pilot.is_whole() && pilot.between == self.between
-    }
-
-    /// True if a pilot run shows that the error of the complete run is small enough, or its steps are near enough to tell how large it is. A
-    /// comparison run costs less than a further run.
-    fn is_judged_by(&self, pilot: &Kept, extent: f64) -> bool {
-        let apart = self.judged.run.apart(pilot);
-        let estimate = self.judged.run.difference(pilot, extent) / (apart - 1.0);
-        apart < FAR_APART || estimate <= WITHIN * self.error.asked
     }
 }
 
@@ -131,8 +121,10 @@ impl Run<'_> {
                 stopped: false,
             },
         };
-        if self.pilot.as_ref().is_some_and(|pilot| pilot.met_events) {
-            control.error.tolerance *= STRICTER;
+        // In a scene with kinks a pilot run has steps by its own tolerance, and tells an error only if they are longer.
+        if let Some(pilot) = self.pilot.as_ref().filter(|pilot| pilot.is_whole() && self.has_kinks()) {
+            let tolerance = asked.min(STRICTER * pilot.tolerance);
+            (control.error.tolerance, control.error.least) = (tolerance, tolerance);
         }
         self.follow(control.error.tolerance, None);
         if let Some(snapshot) = &mut self.checkpoint {
@@ -155,7 +147,8 @@ impl Run<'_> {
         let times = comparison_times(control.between).chain(control.compared.iter().copied());
         let schedule = Schedule::new(model, times, self.controller.looks_inside()).cut(control.pieces.now);
         let pilot = self.pilot.take();
-        let ahead = pilot.as_ref().filter(|pilot| control.is_told_by(pilot));
+        // Events may come late, and their errors of first order do not follow from the steps so far.
+        let ahead = pilot.as_ref().filter(|pilot| control.is_told_by(pilot) && !self.has_kinks());
         let StepError { asked, tolerance, early, .. } = control.error;
         let ahead =
             ahead.map(|pilot| LookAhead::new(pilot, (asked, tolerance), self.context.length, early < MOST_EARLY));
@@ -194,7 +187,9 @@ impl Run<'_> {
         control.judged.run = run;
         control.judged.state.clone_from(state);
         let length = self.context.length;
-        let pilot = self.pilot.take().filter(|pilot| control.is_told_by(pilot) && control.is_judged_by(pilot, length));
+        let (error, run) = (&control.error, &control.judged.run);
+        let judges = |pilot: &Kept| control.is_told_by(pilot) && error.is_judged_by(run, pilot, length);
+        let pilot = self.pilot.take().filter(judges);
         let other = control.before.take().map(|before| (OtherRun::Before as TellOther, before));
         let other = other.or(pilot.map(|pilot| (OtherRun::Pilot as TellOther, pilot)));
         match other.filter(|(_, other)| control.judged.run.is_told_by(other)) {
@@ -244,7 +239,7 @@ impl Run<'_> {
     ) -> std::io::Result<()> {
         control.between[1] = end;
         (control.before, control.error.difference) = (None, None);
-        let StepError { tolerance, longest, .. } = control.error;
+        let StepError { least: tolerance, longest, .. } = control.error;
         self.begin_again(&mut control.error, (tolerance, longest), observer)?;
         // The aborted run does not contribute to the error estimate.
         control.error.others -= 1;
@@ -311,8 +306,8 @@ impl Run<'_> {
     ) -> std::io::Result<()> {
         let model = self.context.model;
         error.add(self.recorder.own());
-        error.before = (error.tolerance, error.longest);
-        (error.tolerance, error.longest) = (tolerance, longest);
+        error.before = (error.least, error.longest);
+        (error.tolerance, error.least, error.longest) = (tolerance, tolerance, longest);
         self.recorder = Recorder::new(model, self.wanted);
         self.follow(tolerance, longest);
         observer.restart(model)

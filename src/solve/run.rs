@@ -224,7 +224,8 @@ impl<'a> Run<'a> {
         let between = [model.analysis.begin, model.analysis.end_time];
         let mut trace = Trace::new(&mut unseen, model.solution.scheme.order() + 1, between);
         let outcome = self.once(&mut trace, &schedule, &mut SingleRun).0;
-        (outcome, trace.into_kept().with_events(self.recorder.events.met()))
+        let tolerance = like.map_or(0.0, |like| like.tolerance);
+        (outcome, Kept { tolerance, ..trace.into_kept().with_events(self.recorder.events.met()) })
     }
 
     /// Prepares for a run by this tolerance, with counts from zero.

@@ -113,7 +113,7 @@ fn pilot_runs_share_long_steps() {
     assert!(number("/accuracy/pilot_runs") >= 2.0, "{result}");
     let of_pilots = number("/accuracy/pilot_steps") / number("/accuracy/pilot_runs");
     assert!(of_pilots < 0.4 * number("/counts/steps"), "{of_pilots}");
-    assert!(number("/step_error/tolerance") > number("/step_error/asked"), "later steps are longer: {result}");
+    assert!(number("/step_error/tolerance") > 1.5 * number("/step_error/asked"), "later steps are longer: {result}");
     let others = number("/accuracy/pilot_iterations") + number("/step_error/other_iterations");
     assert!(others + number("/counts/iterations") < 3600.0, "{result}");
 }

@@ -53,3 +53,45 @@ fn runs_that_come_no_nearer_have_no_estimate() {
         matches!(error.warning(), Some(Warning::RunsPart { difference, .. }) if (difference - 2.9e-3).abs() < 1e-9)
     );
 }
+
+/// A pilot run with steps ten times as long has an error 39 times as large: differences of up to 5.8e-2 show an error below 1.5e-3. With steps so long that
+/// a difference of 0.35 would show it, too, both runs have nothing in common.
+#[test]
+fn a_pilot_run_with_nothing_in_common_judges_no_run() {
+    let error = StepError::new(1e-3);
+    let judges =
+        |steps: usize, difference: f64| error.is_judged_by(&kept(steps, 0.0, false), &kept(10, difference, false), 1.0);
+    assert!(judges(100, 5e-2) && !judges(100, 6e-2));
+    assert!(judges(1000, 0.29) && !judges(1000, 0.35));
+}
+
+/// A run whose steps are `pieces` long, between changes of the tolerance at these times.
+fn in_pieces(pieces: &[(f64, usize)], changes: &[f64]) -> Kept {
+    let mut ends = vec![0.0];
+    for &(until, steps) in pieces {
+        let from = *ends.last().unwrap();
+        ends.extend((1..=steps).map(|n| from + (until - from) * n as f64 / steps as f64));
+    }
+    Kept { ends, changes: changes.to_vec(), between: [0.0, 1.0], ..kept(1, 0.0, false) }
+}
+
+/// A pilot run has 10 and 100 steps in both halves. Its errors come from the second half, whose ratio counts: 4^0.8 for steps half as long. The sums over
+/// both halves follow the first one.
+#[test]
+fn a_changed_tolerance_counts_by_its_worst_interval() {
+    let pilot = in_pieces(&[(0.5, 10), (1.0, 100)], &[]);
+    let run = |changes: &[f64]| in_pieces(&[(0.5, 80), (1.0, 200)], changes).apart(&pilot);
+    assert!((run(&[0.5]) - 4f64.powf(0.8)).abs() < 1e-9, "{}", run(&[0.5]));
+    assert!(run(&[]) > 3.0 * run(&[0.5]), "{}", run(&[]));
+    // The end of the run makes no interval of its own.
+    assert_eq!(run(&[0.5, 1.0]), run(&[0.5]));
+}
+
+/// Errors of first order fall with the length of steps: 1.5 times as long, they are 1.5 times as large.
+#[test]
+fn events_leave_errors_in_the_ratio_of_lengths() {
+    let [run, pilot] = [30, 20].map(|steps| kept(steps, 0.0, true));
+    assert!((run.apart(&pilot) - 1.5).abs() < 1e-9, "{}", run.apart(&pilot));
+    let [fine, coarse] = [90, 20].map(|steps| kept(steps, 0.0, true));
+    assert_eq!(fine.apart(&coarse), 2.0);
+}

@@ -6,9 +6,9 @@
 
 use super::trace::{Kept, ratio_of_errors};
 use crate::control::COMPARISONS;
-use crate::tolerances::global_error::{AIM, FAR_APART, WITHIN};
-use crate::tolerances::look_ahead::{FASTEST, FUTILE, MOST, PREDICTED_AT, TELLING, WORTH};
-use crate::tolerances::trace::TELLING as LEAST_APART;
+use crate::tolerances::global_error::{AIM, FAR_APART, SATURATED, WITHIN};
+use crate::tolerances::look_ahead::{FASTEST, FUTILE, MOST, NEAREST, PREDICTED_AT, WORTH};
+use crate::tolerances::trace::TELLING;
 use base::snapshot::keep;
 
 /// Predicts the error of a run, and adapts the tolerance of its rest.
@@ -20,26 +20,27 @@ pub struct LookAhead<'o> {
     extent: f64,
     /// True if the run may end early.
     may_end: bool,
-    /// The tolerance of the steps, and a new one that the controller has not received yet.
+    /// The tolerance of the first steps, that of later ones, and a new one that the controller has not received yet.
+    first: f64,
     tolerance: f64,
     changed: Option<f64>,
-    /// The time so far, and the integral of the tolerance over it.
+    /// The time so far, and the integral over it of the excess over the first tolerance.
     time: f64,
-    spent: f64,
+    excess: f64,
     /// The time of the last look.
     looked: f64,
     /// The predicted error, if it is too large.
     predicted: Option<f64>,
 }
 
-keep!(LookAhead<'_> { tolerance, changed, time, spent, looked, predicted } without { pilot, asked, extent, may_end });
+keep!(LookAhead<'_> { first, tolerance, changed, time, excess, looked, predicted } without { pilot, asked, extent, may_end });
 
 impl<'o> LookAhead<'o> {
     /// Nothing predicted yet of a run with this tolerance, whose error is to be as asked.
     pub fn new(pilot: &'o Kept, (asked, tolerance): (f64, f64), extent: f64, may_end: bool) -> Self {
         let (time, looked) = (pilot.between[0], pilot.between[0]);
-        let (changed, spent, predicted) = (None, 0.0, None);
-        LookAhead { pilot, asked, extent, may_end, tolerance, changed, time, spent, looked, predicted }
+        let (first, changed, excess, predicted) = (tolerance, None, 0.0, None);
+        LookAhead { pilot, asked, extent, may_end, first, tolerance, changed, time, excess, looked, predicted }
     }
 
     /// The predicted error of a run that is to end early.
@@ -52,15 +53,20 @@ impl<'o> LookAhead<'o> {
         self.changed.take()
     }
 
-    /// The mean tolerance of the steps so far.
+    /// True if the controller has not received the tolerance of later steps yet.
+    pub fn is_changed(&self) -> bool {
+        self.changed.is_some()
+    }
+
+    /// The mean tolerance of the steps so far; the tolerance itself, bit for bit, where it has not changed.
     pub fn mean_tolerance(&self) -> f64 {
         let past = self.time - self.pilot.between[0];
-        if past > 0.0 { self.spent / past } else { self.tolerance }
+        if past > 0.0 { self.first + self.excess / past } else { self.first }
     }
 
     /// Counts the steps up to this time.
     pub fn advance(&mut self, time: f64) {
-        self.spent += self.tolerance * (time - self.time);
+        self.excess += (self.tolerance - self.first) * (time - self.time);
         self.time = time;
     }
 
@@ -70,31 +76,39 @@ impl<'o> LookAhead<'o> {
             return;
         }
         let end = run.end();
-        let known = self.pilot.ends.partition_point(|time| *time <= end + 1e-9 * end.abs());
-        let apart = run.steps_apart_from(&self.pilot.ends[..known]);
+        let apart = run.apart_so_far(self.pilot);
         let half = run.times / 2;
         let [before, difference] = [half, run.times].map(|times| run.difference_over(self.pilot, self.extent, times));
-        if apart <= LEAST_APART || before <= 0.0 || !difference.is_finite() {
+        if apart <= TELLING || before <= 0.0 || !difference.is_finite() {
             return;
         }
         let [past, longer] = [COMPARISONS, half].map(|times| run.times as f64 / times as f64);
         let growth = (difference / before).log(longer).clamp(0.0, FASTEST);
         let error = difference / (apart - 1.0);
         let predicted = error * past.powf(-growth);
-        // The root mean square over all times is at least this part of that so far. A comparison run will judge a run far from the pilot run.
-        let is_lost = apart < FAR_APART && error * past.sqrt() > WITHIN * self.asked;
+        // The root mean square over all times is at least this part of that so far.
+        let is_lost = error * past.sqrt() > WITHIN * self.asked;
         let is_futile = run.times == PREDICTED_AT && predicted > FUTILE * self.asked;
-        if self.may_end && (is_lost || is_futile) {
+        // A comparison run will judge a run far from the pilot run.
+        if self.may_end && apart < FAR_APART && (is_lost || is_futile) {
             self.predicted = Some(predicted);
             return;
         }
-        // Recent steps tell the ratio of the errors that this tolerance makes. Their error may grow faster yet.
+        // Runs with nothing in common tell no error.
+        if difference > SATURATED {
+            return;
+        }
+        // Recent steps tell the ratio of the errors that this tolerance makes.
         let recent =
             ratio_of_errors(self.pilot.rate_of_errors(self.looked, end) / run.rate_of_errors(self.looked, end));
         self.looked = end;
-        let of_pilot = error * apart * past.powf(-growth - 1.0);
-        let factor = (AIM * self.asked / of_pilot - past / apart) / (1.0 - past) * recent;
-        let tolerance = (factor.min(recent / TELLING) * self.tolerance).min(MOST * self.asked);
+        if !recent.is_finite() {
+            return;
+        }
+        // The least ratio of all intervals tells the error at the end. The difference may grow faster yet.
+        let at_end = difference * past.powf(-growth - 1.0);
+        let needed = (1.0 + at_end / (AIM * self.asked)).max(NEAREST);
+        let tolerance = (recent / needed * self.tolerance).min(MOST * self.asked);
         if tolerance > WORTH * self.tolerance {
             self.tolerance = tolerance;
             self.changed = Some(tolerance);

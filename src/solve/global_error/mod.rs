@@ -8,7 +8,7 @@
 mod look_ahead;
 mod trace;
 
-use crate::tolerances::global_error::{AIM, CHANGE, LOST, SATURATED, WITHIN};
+use crate::tolerances::global_error::{AIM, CHANGE, FAR_APART, LOST, SATURATED, WITHIN};
 pub use look_ahead::LookAhead;
 pub use trace::{Kept, Trace, Unseen};
 
@@ -23,11 +23,13 @@ use base::snapshot::keep;
 pub struct StepError {
     /// The error requested in the deck.
     pub asked: f64,
-    /// The tolerance that the steps followed.
+    /// The mean tolerance that the steps followed.
     pub tolerance: f64,
+    /// The least of these tolerances, which the steps began with.
+    pub least: f64,
     /// The longest step allowed; `None` if only the controller limits it.
     pub longest: Option<f64>,
-    /// Both of the run before.
+    /// The least tolerance and the longest step of the run before.
     pub before: (f64, Option<f64>),
     /// The estimated error of the run; `None` where no other run came to its end, or shorter steps bring runs with events no nearer to each other.
     pub estimate: Option<f64>,
@@ -43,7 +45,7 @@ pub struct StepError {
     pub effort: Counts,
 }
 
-keep!(StepError: Default { asked, tolerance, longest, before, estimate, difference, apart, others, early, effort });
+keep!(StepError: Default { asked, tolerance, least, longest, before, estimate, difference, apart, others, early, effort });
 
 impl StepError {
     /// The record of a run with this tolerance, without an estimate yet.
@@ -51,6 +53,7 @@ impl StepError {
         StepError {
             asked,
             tolerance: asked,
+            least: asked,
             longest: None,
             before: (asked, None),
             estimate: None,
@@ -77,6 +80,14 @@ impl StepError {
     pub fn in_place_of(&self, predicted: f64) -> f64 {
         let [least, most] = CHANGE;
         self.tolerance * (AIM * self.asked / predicted).clamp(least, most)
+    }
+
+    /// True if a pilot run shows that the error of a complete run is small enough, or its steps are near enough to tell how large it is. A
+    /// comparison run costs less than a further run. A pilot run that has nothing in common with the run shows nothing.
+    pub fn is_judged_by(&self, run: &Kept, pilot: &Kept, extent: f64) -> bool {
+        let (apart, difference) = (run.apart(pilot), run.difference(pilot, extent));
+        let estimate = difference / (apart - 1.0);
+        difference <= SATURATED && (apart < FAR_APART || estimate <= WITHIN * self.asked)
     }
 
     /// Estimates the error from the difference to another run. Returns the tolerance of a further run; `None` where this one is good enough,

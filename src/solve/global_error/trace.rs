@@ -3,7 +3,7 @@
 use super::look_ahead::LookAhead;
 use crate::control::{COMPARISONS, comparison_time};
 use crate::frame::{Frame, Observer};
-use crate::tolerances::trace::{EVENTFUL, FAR, FAR_SLOPE, FEWEST, MOST_NODES, SLOPE, TELLING, USUAL_STEPS};
+use crate::tolerances::trace::{EVENTFUL, FEWEST, MOST_NODES, SLOPE, TELLING, USUAL_STEPS};
 use base::math::Vec3;
 use base::snapshot::{Keep, Snapshot, keep};
 use model::Model;
@@ -38,9 +38,13 @@ pub struct Kept {
     pub between: [f64; 2],
     /// True where the run has met events.
     pub met_events: bool,
+    /// The tolerance of the steps of a pilot run.
+    pub tolerance: f64,
+    /// The times at which the tolerance of the steps has changed.
+    pub changes: Vec<f64>,
 }
 
-keep!(Kept: Default { displacements, rotations, velocities, times, ends, power, longest, between, met_events });
+keep!(Kept: Default { displacements, rotations, velocities, times, ends, power, longest, between, met_events, tolerance, changes });
 
 impl<'o> Trace<'o> {
     /// An empty trace in front of another observer, for a comparison between these times; the error of a step is proportional to this power
@@ -108,6 +112,7 @@ impl Observer for Trace<'_> {
             ahead.advance(frame.state.time);
             if self.kept.times > seen {
                 ahead.look(&self.kept);
+                self.kept.changes.extend(ahead.is_changed().then_some(frame.state.time));
             }
         }
         self.observer.on_step(frame)
@@ -147,6 +152,7 @@ impl Kept {
         let stride = model.nodes.len().div_ceil(MOST_NODES).max(1);
         if self.displacements.capacity() == 0 {
             self.ends.reserve(USUAL_STEPS);
+            self.changes.reserve_exact(COMPARISONS);
             self.displacements.reserve_exact(COMPARISONS * model.nodes.len().div_ceil(stride));
             self.rotations.reserve_exact(COMPARISONS * model.bodies.len());
             self.velocities.reserve_exact(COMPARISONS * model.bodies.len());
@@ -175,10 +181,12 @@ impl Kept {
     }
 
     /// The ratio of the error of another run to the error of this one, from the steps that the runs do not share. The error of a step with
-    /// an event is at best proportional to its length.
+    /// an event is at best proportional to its length, so the ratio of both lengths limits the ratio of both errors.
     pub fn apart(&self, other: &Kept) -> f64 {
-        let apart = self.steps_apart(other);
-        if self.meets_events(other) { apart.min(EVENTFUL) } else { apart }
+        let sums = self.sums_apart(&other.ends);
+        let apart = self.least_apart(other, ratio_of_errors(sums));
+        let lengths = sums.powf(1.0 / f64::from((self.power - 1).max(1)));
+        if self.meets_events(other) { apart.min(lengths).min(EVENTFUL) } else { apart }
     }
 
     /// True where this run or another has met events.
@@ -186,16 +194,36 @@ impl Kept {
         self.met_events || other.met_events
     }
 
-    /// Like [`Kept::apart`], for runs without events.
+    /// Like [`Kept::apart`], for runs without events whose tolerance stays.
     fn steps_apart(&self, other: &Kept) -> f64 {
-        self.steps_apart_from(&other.ends)
+        ratio_of_errors(self.sums_apart(&other.ends))
     }
 
-    /// The same for another run with these ends of steps.
-    pub(super) fn steps_apart_from(&self, ends: &[f64]) -> f64 {
+    /// The ratio of the sums of the errors of steps that this run does not share with another one, whose steps have these ends.
+    fn sums_apart(&self, ends: &[f64]) -> f64 {
         let [own, theirs] =
             [(&self.ends[..], ends), (ends, &self.ends[..])].map(|(run, than)| own_steps(run, than, self.power));
-        if own.left > 0.0 { ratio_of_errors(theirs.left / own.left) } else { 1.0 }
+        if own.left > 0.0 { theirs.left / own.left } else { 1.0 }
+    }
+
+    /// The ratio of the errors so far of a pilot run and this one, without events.
+    pub(super) fn apart_so_far(&self, pilot: &Kept) -> f64 {
+        let end = self.end();
+        let known = pilot.ends.partition_point(|time| *time <= end + 1e-9 * end.abs());
+        self.least_apart(pilot, ratio_of_errors(self.sums_apart(&pilot.ends[..known])))
+    }
+
+    /// The least of this ratio of the errors over the whole run and of those between changes of the tolerance. The sums over the whole run count
+    /// intervals with long steps, whose errors may matter less than errors of short steps.
+    fn least_apart(&self, other: &Kept, whole: f64) -> f64 {
+        if self.changes.is_empty() {
+            return whole;
+        }
+        let begins = std::iter::once(self.between[0]).chain(self.changes.iter().copied());
+        let ends = self.changes.iter().copied().chain([self.end()]);
+        let rates = begins.zip(ends).map(|(from, to)| other.rate_of_errors(from, to) / self.rate_of_errors(from, to));
+        // No step lies between a change and an end at the same time.
+        rates.filter(|rate| rate.is_finite()).map(ratio_of_errors).fold(whole, f64::min)
     }
 
     /// The errors of steps per unit of time between two times: the mean of a power of the step.
@@ -316,8 +344,7 @@ fn own_steps(ends: &[f64], other: &[f64], power: i32) -> OwnSteps {
 
 /// The ratio of the errors of two runs whose errors of steps have sums in this ratio.
 pub(super) fn ratio_of_errors(sums: f64) -> f64 {
-    let near = sums.min(FAR);
-    near.powf(SLOPE) * (sums / near).powf(FAR_SLOPE)
+    sums.powf(SLOPE)
 }
 
 /// Steps that the other run does not share: their number, and the sum of this power of their lengths.
