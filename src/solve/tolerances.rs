@@ -529,7 +529,7 @@ pub mod global_error {
     pub const SATURATED: f64 = 0.3;
     /// Ratio of the errors of a pilot run and a run above which a comparison run tells the error better.
     pub const FAR_APART: f64 = 30.0;
-    /// Largest ratio of the tolerances of the first run and its pilot run in a scene with kinks: steps are two thirds as long by a scheme of third
+    /// Largest ratio of the tolerances of the first run and its pilot run in a scene with kinks. Steps are two thirds as long by a scheme of third
     /// order, and both runs tell an error.
     pub const STRICTER: f64 = 0.3;
 }
