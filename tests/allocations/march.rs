@@ -151,7 +151,7 @@ fn superelements_neither() {
     // The same blade of reduced beams, under a load over its length.
     let path = crate::support::decks().join("spin_up/reduced/deck.toml");
     let text = std::fs::read_to_string(&path).expect("a deck");
-    let text = text + "\n[[loads]]\npart = \"piece_4\"\nforce_per_length = [0.0, 0.1, 1.0]\n";
+    let text = text + "\n[[loads]]\npart = \"blade\"\nforce_per_length = [0.0, 0.1, 1.0]\n";
     for scheme in ["newmark", "generalized-alpha", "esdirk3"] {
         let sets = [format!("integrator={{scheme=\"{scheme}\"}}")];
         let source = Source::new(path.display().to_string(), text.as_str(), &sets);
