@@ -169,7 +169,9 @@ pub fn rest_warning(balance: &Balance, model: &Model) -> Option<String> {
         AnalysisKind::Dynamic => model.output.energy,
         _ => false,
     };
-    (is_summed && balance.peak == 0.0).then(|| {
+    // In statics a given motion may move bodies without any work.
+    let is_moved = model.constraints.restraints.iter().any(|held| held.motion.is_some());
+    (is_summed && !is_moved && balance.peak == 0.0).then(|| {
         "nothing moves: no load, weight, motion or initial velocity acts on a part that can follow. Give `[[loads]]`, `gravity` in `[environment]`, \
          or `[[initial]]`"
             .to_owned()
