@@ -1,10 +1,10 @@
 //! Connectors as joints, links and bushings.
 
 use crate::build::Build;
+use crate::contact_content::ModelChange;
 use crate::deck_text::{DeckTable, inline, list, number, quoted, vector};
 use crate::element_types::ElementUse;
 use crate::file_content::{ConnectorBehavior, ConnectorSection};
-use crate::model_changes;
 use base::math::Vec3;
 use std::collections::BTreeSet;
 
@@ -60,7 +60,7 @@ pub fn connectors(build: &mut Build) {
             };
             if let Some(table) = table {
                 if is_joint(&kind) && ["stiffness", "motion", "effort"].iter().any(|key| table.has(key)) {
-                    model_changes::refuse_later_coordinate(build, at);
+                    refuse_later_coordinate(build, at);
                 }
                 build.deck.add_in(table, build.timeline.stages_of_cell(at));
             }
@@ -278,4 +278,21 @@ fn bushing(build: &mut Build, section: &ConnectorSection, name: &str, [a, b]: [u
         .numbers("bushing", &six(&behavior.stiffness))
         .numbers("bushing_damping", &six(&behavior.damping))
         .value("axes", list(axes.iter().map(|axis| vector(axis.as_slice()))))
+}
+
+/// Refuses the changes of a joint with a spring or a drive that is not there from the first stage on: its coordinate has no origin.
+fn refuse_later_coordinate(build: &mut Build, cell: usize) {
+    let Some(acts) = build.timeline.acting.get(&cell) else { return };
+    let acting: Vec<bool> = build.timeline.stages.iter().map(|stage| acts[stage.step]).collect();
+    if acting.is_sorted_by(|before, after| before >= after) && acting.first() == Some(&true) {
+        return;
+    }
+    let changes: Vec<ModelChange> =
+        build.im.steps.list.iter().flat_map(|card| card.changes.clone()).filter(|change| !change.is_pair).collect();
+    let why = "a joint with a spring or a drive does not come in a later step: leave it in all steps, with a drive that is zero until then";
+    for change in changes {
+        if change.targets.iter().any(|target| build.cells(target).contains(&cell)) {
+            build.im.refuse(change.line, why);
+        }
+    }
 }

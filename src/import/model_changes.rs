@@ -105,23 +105,6 @@ fn judge_added(build: &mut Build, at: usize, change: &ModelChange) {
     }
 }
 
-/// Refuses the changes of a joint with a spring or a drive that is not there from the first stage on: its coordinate has no origin.
-pub fn refuse_later_coordinate(build: &mut Build, cell: usize) {
-    let Some(acts) = build.timeline.acting.get(&cell) else { return };
-    let acting: Vec<bool> = build.timeline.stages.iter().map(|stage| acts[stage.step]).collect();
-    if acting.is_sorted_by(|before, after| before >= after) && acting.first() == Some(&true) {
-        return;
-    }
-    let changes: Vec<ModelChange> =
-        build.im.steps.list.iter().flat_map(|card| card.changes.clone()).filter(|change| !change.is_pair).collect();
-    let why = "a joint with a spring or a drive does not come in a later step: leave it in all steps, with a drive that is zero until then";
-    for change in changes {
-        if change.targets.iter().any(|target| build.cells(target).contains(&cell)) {
-            build.im.refuse(change.line, why);
-        }
-    }
-}
-
 impl Timeline {
     /// The stages of an element; `None` for all.
     pub fn stages_of_cell(&self, cell: usize) -> Option<Vec<String>> {

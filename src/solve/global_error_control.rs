@@ -158,26 +158,7 @@ impl Run<'_> {
         control.error.tolerance = trace.mean_tolerance().unwrap_or(control.error.tolerance);
         let run = trace.into_kept().with_events(self.recorder.events.met());
         self.pilot = pilot;
-        if let Some(predicted) = predicted.filter(|_| !matches!(outcome, Outcome::Io(_))) {
-            // Later steps may be longer than those so far. Pilot runs may have steps twice as long as this run.
-            let longest = self.pilot.iter().map(|pilot| 0.5 * pilot.longest()).fold(run.longest(), f64::max);
-            let shorter = (control.error.in_place_of(predicted), longest);
-            let begun = self.begin_shorter(shorter, control, observer);
-            control.error.early += 1;
-            return begun.err().map(|error| (Outcome::Io(error), None));
-        }
-        // The run fails with shorter steps, but the previous run was complete.
-        if control.before.is_some() && matches!(outcome, Outcome::Failed { .. }) {
-            let of_before = control.error.before;
-            let begun = self.begin_again(&mut control.error, of_before, observer);
-            control.under_way = UnderWay::Settled;
-            return begun.err().map(|error| (Outcome::Io(error), None));
-        }
-        // A smaller tolerance may keep the motion.
-        let is_lost = matches!(&outcome, Outcome::Failed { failure: Failure::EnergyGrowth { .. }, .. });
-        if is_lost && control.error.others - control.error.early < MOST_RUNS {
-            let shorter = (control.error.without_comparison(), run.longest());
-            let begun = self.begin_shorter(shorter, control, observer);
+        if let Some(begun) = self.begin_instead((&outcome, predicted, &run), control, observer) {
             return begun.err().map(|error| (Outcome::Io(error), None));
         }
         let (Outcome::Done, Some(state)) = (&outcome, &state) else { return Some((outcome, state)) };
@@ -199,6 +180,37 @@ impl Run<'_> {
                 None
             }
         }
+    }
+
+    /// Prepares for another run in place of one that has failed, or whose predicted error is too large; `None` where this run stands.
+    fn begin_instead(
+        &mut self,
+        (outcome, predicted, run): (&Outcome, Option<f64>, &Kept),
+        control: &mut GlobalErrorControl,
+        observer: &mut dyn Observer,
+    ) -> Option<std::io::Result<()>> {
+        if let Some(predicted) = predicted.filter(|_| !matches!(outcome, Outcome::Io(_))) {
+            // Later steps may be longer than those so far. Pilot runs may have steps twice as long as this run.
+            let longest = self.pilot.iter().map(|pilot| 0.5 * pilot.longest()).fold(run.longest(), f64::max);
+            let shorter = (control.error.in_place_of(predicted), longest);
+            let begun = self.begin_shorter(shorter, control, observer);
+            control.error.early += 1;
+            return Some(begun);
+        }
+        // The run fails with shorter steps, but the previous run was complete.
+        if control.before.is_some() && matches!(outcome, Outcome::Failed { .. }) {
+            let of_before = control.error.before;
+            let begun = self.begin_again(&mut control.error, of_before, observer);
+            control.under_way = UnderWay::Settled;
+            return Some(begun);
+        }
+        // A smaller tolerance may keep the motion.
+        let is_lost = matches!(outcome, Outcome::Failed { failure: Failure::EnergyGrowth { .. }, .. });
+        if is_lost && control.error.others - control.error.early < MOST_RUNS {
+            let shorter = (control.error.without_comparison(), run.longest());
+            return Some(self.begin_shorter(shorter, control, observer));
+        }
+        None
     }
 
     /// Prepares for a run with this smaller tolerance in place of one with this longest step.

@@ -13,6 +13,7 @@ use deck::part_table::MassKind;
 use mechanics::elements::beam::FibreModel;
 use mechanics::elements::heat::Heat;
 use mechanics::sections::Stiffness;
+use std::ops::Range;
 
 /// A line of nodes, cut into elements with one or more inner nodes.
 #[derive(Debug, Clone)]
@@ -104,6 +105,10 @@ impl PartAnswers for Beam {
             element.nodes[..=order].iter_mut().chain(masses).for_each(&mut *visit);
         }
         self.heat.nodes_mut().for_each(visit);
+    }
+
+    fn keep_elements(&mut self, elements: &Range<usize>) {
+        self.elements = self.elements[elements.clone()].to_vec();
     }
 
     fn heat(&self) -> Option<&Heat> {

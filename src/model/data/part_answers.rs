@@ -8,6 +8,7 @@ use base::math::{Mat3, Vec3};
 use deck::part_table::MassKind;
 use mechanics::elements::heat::Heat;
 use mechanics::sections::Stiffness;
+use std::ops::Range;
 
 /// How an element is drawn.
 pub enum Drawing<'p> {
@@ -126,6 +127,9 @@ pub trait PartAnswers {
     fn may_release(&self) -> bool {
         false
     }
+
+    /// Keeps some of its elements, where they can be told apart: those of a beam.
+    fn keep_elements(&mut self, _elements: &Range<usize>) {}
 
     /// True where the part may do work over a cycle, as matrices of bearings that are not symmetric do.
     fn may_feed(&self) -> bool {

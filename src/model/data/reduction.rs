@@ -1,8 +1,7 @@
 //! Parts that deform by a few shapes.
 
-use super::beam::Beam;
 use super::loading::OwnDamping;
-use super::part::{Part, PartType};
+use super::part::Part;
 use mechanics::elements::superelement::{InertiaIntegrals, SuperelementData};
 use std::ops::Range;
 use std::sync::Arc;
@@ -46,9 +45,7 @@ impl Reduction {
     pub fn own_parts(&self, all: &[Part]) -> Vec<Part> {
         let mut own: Vec<Part> = self.parts.iter().map(|&part| all[part].clone()).collect();
         if let Some(elements) = &self.elements {
-            for beam in own.iter_mut().filter_map(Beam::of_mut) {
-                beam.elements = beam.elements[elements.clone()].to_vec();
-            }
+            own.iter_mut().for_each(|part| part.keep_elements(elements));
         }
         own
     }

@@ -4,7 +4,7 @@
 //! the end follows from its growth. A run whose error will be too large ends early. If its error will be far below the one asked for,
 //! the tolerance of the rest of the run rises.
 
-use super::trace::{Kept, ratio_of_errors};
+use super::kept::{Kept, ratio_of_errors};
 use crate::control::COMPARISONS;
 use crate::tolerances::global_error::{AIM, FAR_APART, SATURATED, WITHIN};
 use crate::tolerances::look_ahead::{FASTEST, FUTILE, MOST, NEAREST, PREDICTED_AT, WORTH};

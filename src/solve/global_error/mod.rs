@@ -5,12 +5,14 @@
 //! the error of the worse run, and a known multiple of the error of the better run (L. F. Richardson, 1911). If the error exceeds the
 //! requested one, the run is repeated with a tolerance computed from it.
 
+mod kept;
 mod look_ahead;
 mod trace;
 
 use crate::tolerances::global_error::{AIM, CHANGE, FAR_APART, LOST, SATURATED, WITHIN};
+pub use kept::Kept;
 pub use look_ahead::LookAhead;
-pub use trace::{Kept, Trace, Unseen};
+pub use trace::{Trace, Unseen};
 
 use crate::tolerances::trace::TELLING;
 

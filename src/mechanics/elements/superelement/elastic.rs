@@ -4,7 +4,7 @@
 //! with m_i = T⁻ᵀ(ψ_i) g_ψ, h = Σ z_i × g_i + m_i and b = G⁻¹ h, the forces are f_i = g_i − ½ b × Y_i and the moments m_i − λ H_iᵀ b.
 
 use super::frame::{FloatingFrame, half_trace_less};
-use super::second_order::Memory;
+use super::second_order::SecondOrderMemory;
 use super::{FloatingElement, Scratch, add_multiple, add_three, multiply, set_three, three};
 use crate::elements::block::{Branches, Elements, Force, Mechanics, Moduli, Results, subtract};
 use crate::state::{Configuration, Node};
@@ -60,7 +60,7 @@ impl FloatingElement {
     }
 
     /// Adds C q̇ and the forces by β of the rates of strain to `g`; `product` is memory.
-    fn add_viscous(&self, (q, rates): (&[f64], &[f64]), memory: (&mut [f64], &mut Memory), g: &mut [f64]) {
+    fn add_viscous(&self, (q, rates): (&[f64], &[f64]), memory: (&mut [f64], &mut SecondOrderMemory), g: &mut [f64]) {
         let (product, second_order) = memory;
         multiply(&self.data.stiffness, rates, product);
         g.iter_mut().zip(&*product).for_each(|(g, p)| *g += self.beta * p);

@@ -63,7 +63,7 @@ pub struct InertiaIntegrals {
 }
 
 /// A linear motion of the part: of the mean of the interface, of the frame, and q̇.
-pub(super) struct Motion<'m> {
+pub(super) struct PartMotion<'m> {
     pub V: Vec3,
     pub spin: Vec3,
     pub q_rate: &'m [f64],
@@ -233,7 +233,7 @@ impl InertiaIntegrals {
         let (mut sum, mut h) = self.forces(of, &at, (q, rates, seconds), frame.R.tr_mul(field), dynamic, g);
         if let Some((alpha, relative)) = drag {
             let [V, spin] = of.small_motion(frame, |i| relative(of.data.nodes[i]), w);
-            let [linear, angular] = self.momenta(of, q, &Motion { V, spin, q_rate: w }, p);
+            let [linear, angular] = self.momenta(of, q, &PartMotion { V, spin, q_rate: w }, p);
             (sum, h) = (sum + alpha * linear, h + alpha * angular);
             super::add_multiple(g, alpha, p);
         }
@@ -278,8 +278,8 @@ impl InertiaIntegrals {
     }
 
     /// The momenta of a motion: p and L about the mean of the interface; writes ∂T/∂q̇.
-    pub(super) fn momenta(&self, of: &FloatingElement, q: &[f64], motion: &Motion, p: &mut [f64]) -> [Vec3; 2] {
-        let Motion { V, spin, q_rate } = motion;
+    pub(super) fn momenta(&self, of: &FloatingElement, q: &[f64], motion: &PartMotion, p: &mut [f64]) -> [Vec3; 2] {
+        let PartMotion { V, spin, q_rate } = motion;
         let s = self.first_moment(q);
         multiply(&of.data.mass, q_rate, p);
         let [J, _] = self.inertia(q, None, |_, _| ());
@@ -303,7 +303,7 @@ impl InertiaIntegrals {
         of.place(nodes, frame);
         of.displacements(nodes, frame, q);
         let [V, spin] = of.small_motion(frame, |i| motion(of.data.nodes[i]), rates);
-        let [linear, angular] = self.momenta(of, q, &Motion { V, spin, q_rate: rates }, p);
+        let [linear, angular] = self.momenta(of, q, &PartMotion { V, spin, q_rate: rates }, p);
         [linear, angular, V, spin]
     }
 

@@ -1,6 +1,6 @@
 //! The mass matrix of a reduced part in its bent state. Mass beside the axis has inertia about it, beside the small one of sections.
 
-use super::integrals::{InertiaIntegrals, Motion};
+use super::integrals::{InertiaIntegrals, PartMotion};
 use super::{FloatingElement, Scratch, add_multiple, set_three};
 use crate::state::Node;
 use base::math::Vec3;
@@ -24,7 +24,7 @@ impl InertiaIntegrals {
                 set_three(rates, 6 * i + 3, &-(inverses[i] * spin));
             }
             rates[of.placed()..].fill(0.0);
-            *sums = self.momenta(of, q, &Motion { V, spin, q_rate: rates }, p);
+            *sums = self.momenta(of, q, &PartMotion { V, spin, q_rate: rates }, p);
         }
         let (size, interface) = (of.size(), of.data.interface);
         matrix.fill(0.0);

@@ -13,16 +13,19 @@ mod integrals;
 mod mass_matrix;
 mod recovery;
 mod second_order;
+mod vectors;
 
 pub use elastic::SuperelementBlock;
 pub use integrals::{InertiaIntegrals, ModalMass, NodalMass, products};
 pub use recovery::InnerNodes;
 pub use second_order::{Product, SecondOrder};
+pub use vectors::dot;
 
 use crate::state::Node;
 use base::math::{Mat3, Vec3, skew};
 use frame::{FloatingFrame, axial};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use vectors::{add_multiple, add_three, multiply, set_three, three};
 
 /// The nodes and matrices of a superelement. Matrices are square and row-major, over six degrees of freedom of each node and the amplitudes.
 #[derive(Debug, Clone, PartialEq)]
@@ -105,7 +108,7 @@ struct Scratch {
     /// T⁻¹(ψ) of the nodes of the interface.
     inverses: Vec<Mat3>,
     /// Memory of the terms of second order.
-    second_order: second_order::Memory,
+    second_order: second_order::SecondOrderMemory,
 }
 
 impl FloatingElement {
@@ -129,7 +132,7 @@ impl FloatingElement {
             vectors: std::array::from_fn(|_| vec![0.0; size]),
             matrix: vec![0.0; size * size],
             inverses: vec![Mat3::identity(); n],
-            second_order: data.second_order.as_deref().map(second_order::Memory::new).unwrap_or_default(),
+            second_order: data.second_order.as_deref().map(second_order::SecondOrderMemory::new).unwrap_or_default(),
         };
         let mass = (!data.mass.is_empty()).then(|| MassProperties::of(&data.mass, n, &Y));
         FloatingElement { data, x, Y, turning, beta, mass, scratch: Mutex::new(scratch) }
@@ -238,50 +241,4 @@ impl MassProperties {
         }
         MassProperties { total, center, share, rest }
     }
-}
-
-/// Three entries of a vector.
-#[inline]
-fn three(of: &[f64], at: usize) -> Vec3 {
-    Vec3::new(of[at], of[at + 1], of[at + 2])
-}
-
-/// Sets three entries of a vector.
-#[inline]
-fn set_three(of: &mut [f64], at: usize, values: &Vec3) {
-    of[at..at + 3].copy_from_slice(values.as_slice());
-}
-
-/// Adds to three entries of a vector.
-#[inline]
-fn add_three(of: &mut [f64], at: usize, values: &Vec3) {
-    of[at..at + 3].iter_mut().zip(values.iter()).for_each(|(entry, value)| *entry += value);
-}
-
-/// The product of a square row-major matrix and a vector.
-#[inline]
-fn multiply(A: &[f64], x: &[f64], product: &mut [f64]) {
-    for (entry, row) in product.iter_mut().zip(A.chunks(x.len())) {
-        *entry = dot(row, x);
-    }
-}
-
-/// The product of two vectors, whose sums by sixteen run side by side.
-#[inline]
-pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 16];
-    let (mut left, mut right) = (a.chunks_exact(16), b.chunks_exact(16));
-    for (a, b) in left.by_ref().zip(right.by_ref()) {
-        for i in 0..16 {
-            sums[i] += a[i] * b[i];
-        }
-    }
-    let rest: f64 = left.remainder().iter().zip(right.remainder()).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f64>() + rest
-}
-
-/// Adds a multiple of a vector to another.
-#[inline]
-fn add_multiple(of: &mut [f64], factor: f64, values: &[f64]) {
-    of.iter_mut().zip(values).for_each(|(sum, value)| *sum += factor * value);
 }

@@ -6,6 +6,8 @@
 //!
 //! It contains the squares ½ λ_i (p_i + e_i)². A beam that bends freely becomes shorter by e, without an axial force.
 
+use super::vectors::{add_multiple, dot};
+
 /// The coordinates and their products.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SecondOrder {
@@ -28,9 +30,9 @@ pub struct Product {
     pub factor: f64,
 }
 
-/// Memory of an evaluation.
+/// SecondOrderMemory of an evaluation.
 #[derive(Debug, Clone, Default)]
-pub struct Memory {
+pub struct SecondOrderMemory {
     p: Vec<f64>,
     e: Vec<f64>,
     /// λ_i (p_i + e_i).
@@ -45,13 +47,13 @@ pub struct Memory {
     product: Vec<f64>,
 }
 
-impl Memory {
-    /// Memory for these terms.
-    pub fn new(of: &SecondOrder) -> Memory {
+impl SecondOrderMemory {
+    /// SecondOrderMemory for these terms.
+    pub fn new(of: &SecondOrder) -> SecondOrderMemory {
         let count = of.stiffness.len();
         let vector = vec![0.0; count];
         let square = vec![0.0; count * count];
-        Memory {
+        SecondOrderMemory {
             p: vector.clone(),
             e: vector.clone(),
             s: vector.clone(),
@@ -65,9 +67,9 @@ impl Memory {
 
 impl SecondOrder {
     /// Writes p, e and λ (p + e).
-    fn evaluate(&self, q: &[f64], Memory { p, e, s, .. }: &mut Memory) {
+    fn evaluate(&self, q: &[f64], SecondOrderMemory { p, e, s, .. }: &mut SecondOrderMemory) {
         for (p, row) in p.iter_mut().zip(self.coordinates.chunks_exact(q.len())) {
-            *p = super::dot(row, q);
+            *p = dot(row, q);
         }
         e.fill(0.0);
         for Product { sum, of: [j, k], factor } in &self.terms {
@@ -79,16 +81,16 @@ impl SecondOrder {
     }
 
     /// The energy beside ½ qᵀ K q.
-    pub fn energy(&self, q: &[f64], memory: &mut Memory) -> f64 {
+    pub fn energy(&self, q: &[f64], memory: &mut SecondOrderMemory) -> f64 {
         self.evaluate(q, memory);
-        let Memory { p, e, .. } = memory;
+        let SecondOrderMemory { p, e, .. } = memory;
         (0..p.len()).map(|i| self.stiffness[i] * e[i] * (p[i] + 0.5 * e[i])).sum()
     }
 
     /// Adds its derivatives by q to `g`.
-    pub fn add_forces(&self, q: &[f64], memory: &mut Memory, g: &mut [f64]) {
+    pub fn add_forces(&self, q: &[f64], memory: &mut SecondOrderMemory, g: &mut [f64]) {
         self.evaluate(q, memory);
-        let Memory { p, e, s, force, .. } = memory;
+        let SecondOrderMemory { p, e, s, force, .. } = memory;
         for (i, force) in force.iter_mut().enumerate() {
             *force = self.stiffness[i] * e[i];
         }
@@ -97,11 +99,11 @@ impl SecondOrder {
     }
 
     /// Adds the forces by β times the rates of strain ṗ + ė, beside β K q̇, to `g`.
-    pub fn add_viscous(&self, (q, rates): (&[f64], &[f64]), beta: f64, memory: &mut Memory, g: &mut [f64]) {
-        let Memory { p, e, s, force, E, .. } = memory;
+    pub fn add_viscous(&self, (q, rates): (&[f64], &[f64]), beta: f64, memory: &mut SecondOrderMemory, g: &mut [f64]) {
+        let SecondOrderMemory { p, e, s, force, E, .. } = memory;
         let own = &mut E[..p.len()];
         for (i, row) in self.coordinates.chunks_exact(q.len()).enumerate() {
-            (p[i], own[i]) = (super::dot(row, q), super::dot(row, rates));
+            (p[i], own[i]) = (dot(row, q), dot(row, rates));
         }
         e.fill(0.0);
         for Product { sum, of: [j, k], factor } in &self.terms {
@@ -126,14 +128,14 @@ impl SecondOrder {
     /// Adds Lᵀ times forces.
     fn add_rows(&self, force: &[f64], g: &mut [f64]) {
         for (force, row) in force.iter().zip(self.coordinates.chunks_exact(g.len())) {
-            super::add_multiple(g, *force, row);
+            add_multiple(g, *force, row);
         }
     }
 
     /// Adds its second derivatives by q to a square matrix, those of strains times a factor.
-    pub fn add_stiffness(&self, q: &[f64], of_strains: f64, memory: &mut Memory, K: &mut [f64]) {
+    pub fn add_stiffness(&self, q: &[f64], of_strains: f64, memory: &mut SecondOrderMemory, K: &mut [f64]) {
         self.evaluate(q, memory);
-        let Memory { p, s, E, change, product, .. } = memory;
+        let SecondOrderMemory { p, s, E, change, product, .. } = memory;
         let (count, size) = (p.len(), q.len());
         E.fill(0.0);
         change.fill(0.0);
@@ -147,7 +149,7 @@ impl SecondOrder {
         for (i, (row, stiffness)) in E.chunks_exact(count).zip(&self.stiffness).enumerate() {
             for j in (0..count).filter(|&j| row[j] != 0.0) {
                 let by = of_strains * stiffness * row[j];
-                super::add_multiple(&mut change[j * count..(j + 1) * count], by, row);
+                add_multiple(&mut change[j * count..(j + 1) * count], by, row);
                 change[j * count + i] += by;
                 change[i * count + j] += by;
             }
@@ -155,12 +157,12 @@ impl SecondOrder {
         product.fill(0.0);
         for (product, row) in product.chunks_exact_mut(size).zip(change.chunks_exact(count)) {
             for (entry, coordinate) in row.iter().zip(self.coordinates.chunks_exact(size)) {
-                super::add_multiple(product, *entry, coordinate);
+                add_multiple(product, *entry, coordinate);
             }
         }
         for (coordinate, product) in self.coordinates.chunks_exact(size).zip(product.chunks_exact(size)) {
             for (K, by) in K.chunks_exact_mut(size).zip(coordinate) {
-                super::add_multiple(K, *by, product);
+                add_multiple(K, *by, product);
             }
         }
     }

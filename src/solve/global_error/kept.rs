@@ -1,0 +1,258 @@
+//! The motion of a run at a few times, for the comparison of runs with different steps.
+
+use crate::control::{COMPARISONS, comparison_time};
+use crate::frame::Frame;
+use crate::tolerances::trace::{EVENTFUL, FEWEST, MOST_NODES, SLOPE, TELLING, USUAL_STEPS};
+use base::math::Vec3;
+use base::snapshot::keep;
+use nalgebra::Quaternion;
+
+/// The data of a trace; the list of step ends grows with the run.
+#[derive(Debug, Clone, Default)]
+pub struct Kept {
+    /// Displacements of the compared nodes, one time after the other.
+    pub displacements: Vec<Vec3>,
+    /// Rotations of the bodies, likewise.
+    pub rotations: Vec<Quaternion<f64>>,
+    /// Velocities and angular velocities of the bodies, likewise, in models of rigid bodies only.
+    pub velocities: Vec<[Vec3; 2]>,
+    /// Number of times so far.
+    pub times: usize,
+    /// The ends of all steps, the first at t = 0.
+    pub ends: Vec<f64>,
+    /// The error of a step is proportional to this power of its length.
+    pub power: i32,
+    /// The longest step.
+    pub longest: f64,
+    /// The times between which runs are compared.
+    pub between: [f64; 2],
+    /// True where the run has met events.
+    pub met_events: bool,
+    /// The tolerance of the steps of a pilot run.
+    pub tolerance: f64,
+    /// The times at which the tolerance of the steps has changed.
+    pub changes: Vec<f64>,
+}
+
+keep!(Kept: Default { displacements, rotations, velocities, times, ends, power, longest, between, met_events, tolerance, changes });
+
+impl Kept {
+    /// Keeps the motion where a time of comparison is reached.
+    pub(super) fn look(&mut self, frame: &Frame) {
+        let Frame { model, state, .. } = frame;
+        let stride = model.nodes.len().div_ceil(MOST_NODES).max(1);
+        if self.displacements.capacity() == 0 {
+            self.ends.reserve(USUAL_STEPS);
+            self.changes.reserve_exact(COMPARISONS);
+            self.displacements.reserve_exact(COMPARISONS * model.nodes.len().div_ceil(stride));
+            self.rotations.reserve_exact(COMPARISONS * model.bodies.len());
+            self.velocities.reserve_exact(COMPARISONS * model.bodies.len());
+        }
+        let ends = self.between;
+        if self.times == COMPARISONS || state.time < comparison_time(self.times + 1, ends) - 1e-9 * ends[1] {
+            return;
+        }
+        // Drives of joints may have angles in place of displacements, and have no error.
+        let numbers: Vec<usize> = model.number_nodes().collect();
+        let compared = state.nodes.iter().zip(&model.nodes).enumerate().step_by(stride);
+        let compared = compared.filter(|(node, _)| !numbers.contains(node));
+        self.displacements.extend(compared.map(|(_, (node, start))| node.moved(&start.x)));
+        let bodies = || model.bodies.iter().map(|body| &state.nodes[body.node]);
+        self.rotations.extend(bodies().map(|node| node.rotation));
+        // Elastic parts vibrate and contacts stop bodies at once. Velocities are then far less certain than positions, and matter less.
+        if !model.parts.iter().any(|part| part.mass_kind().is_some() || part.kind().is_unilateral()) {
+            self.velocities.extend(bodies().map(|node| [node.v, node.omega]));
+        }
+        self.times += 1;
+    }
+
+    /// Records whether the run has met events.
+    pub fn with_events(self, met_events: bool) -> Kept {
+        Kept { met_events, ..self }
+    }
+
+    /// The ratio of the error of another run to the error of this one, from the steps that the runs do not share. The error of a step with
+    /// an event is at best proportional to its length, so the ratio of both lengths limits the ratio of both errors.
+    pub fn apart(&self, other: &Kept) -> f64 {
+        let sums = self.sums_apart(&other.ends);
+        let apart = self.least_apart(other, ratio_of_errors(sums));
+        let lengths = sums.powf(1.0 / f64::from((self.power - 1).max(1)));
+        if self.meets_events(other) { apart.min(lengths).min(EVENTFUL) } else { apart }
+    }
+
+    /// True where this run or another has met events.
+    pub fn meets_events(&self, other: &Kept) -> bool {
+        self.met_events || other.met_events
+    }
+
+    /// Like [`Kept::apart`], for runs without events whose tolerance stays.
+    fn steps_apart(&self, other: &Kept) -> f64 {
+        ratio_of_errors(self.sums_apart(&other.ends))
+    }
+
+    /// The ratio of the sums of the errors of steps that this run does not share with another one, whose steps have these ends.
+    fn sums_apart(&self, ends: &[f64]) -> f64 {
+        let [own, theirs] =
+            [(&self.ends[..], ends), (ends, &self.ends[..])].map(|(run, than)| own_steps(run, than, self.power));
+        if own.left > 0.0 { theirs.left / own.left } else { 1.0 }
+    }
+
+    /// The ratio of the errors so far of a pilot run and this one, without events.
+    pub(super) fn apart_so_far(&self, pilot: &Kept) -> f64 {
+        let end = self.end();
+        let known = pilot.ends.partition_point(|time| *time <= end + 1e-9 * end.abs());
+        self.least_apart(pilot, ratio_of_errors(self.sums_apart(&pilot.ends[..known])))
+    }
+
+    /// The least of this ratio of the errors over the whole run and of those between changes of the tolerance. The sums over the whole run count
+    /// intervals with long steps, whose errors may matter less than errors of short steps.
+    fn least_apart(&self, other: &Kept, whole: f64) -> f64 {
+        if self.changes.is_empty() {
+            return whole;
+        }
+        let begins = std::iter::once(self.between[0]).chain(self.changes.iter().copied());
+        let ends = self.changes.iter().copied().chain([self.end()]);
+        let rates = begins.zip(ends).map(|(from, to)| other.rate_of_errors(from, to) / self.rate_of_errors(from, to));
+        // No step lies between a change and an end at the same time.
+        rates.filter(|rate| rate.is_finite()).map(ratio_of_errors).fold(whole, f64::min)
+    }
+
+    /// The errors of steps per unit of time between two times: the mean of a power of the step.
+    pub(super) fn rate_of_errors(&self, from: f64, to: f64) -> f64 {
+        let [first, last] = [from, to].map(|time| self.ends.partition_point(|end| *end <= time + 1e-9 * to.abs()));
+        let steps = &self.ends[first.saturating_sub(1)..(last + 1).min(self.ends.len())];
+        let (mut sum, mut time) = (0.0, 0.0);
+        for step in steps.windows(2) {
+            let length = step[1] - step[0];
+            (sum, time) = (sum + length.powi(self.power), time + length);
+        }
+        sum / time
+    }
+
+    /// True where the steps of another run are enough longer to tell the error of this one.
+    pub fn is_told_by(&self, other: &Kept) -> bool {
+        !self.has_steps_of(other) && self.steps_apart(other) > TELLING
+    }
+
+    /// True if most steps equal those of the other run, because something other than the tolerance limits them.
+    pub fn has_steps_of(&self, other: &Kept) -> bool {
+        2 * own_steps(&self.ends, &other.ends, self.power).count < self.ends.len().saturating_sub(1)
+    }
+
+    /// True if all times of comparison were reached.
+    pub fn is_whole(&self) -> bool {
+        self.times == COMPARISONS
+    }
+
+    /// The time at its end.
+    pub fn end(&self) -> f64 {
+        self.ends.last().copied().unwrap_or_default()
+    }
+
+    /// The longest step.
+    pub fn longest(&self) -> f64 {
+        self.longest
+    }
+
+    /// The difference of two runs relative to their largest motion: the root mean square over the times of the largest value over nodes and
+    /// bodies. Displacements, rotations and velocities of bodies each refer to their largest value; `extent` is the length of the model,
+    /// which relates translations and rotations. Infinite where a stage has stopped before there was enough to compare.
+    pub fn difference(&self, other: &Kept, extent: f64) -> f64 {
+        match self.times.min(other.times) {
+            times if times < FEWEST => f64::INFINITY,
+            times => self.difference_over(other, extent, times),
+        }
+    }
+
+    /// The same over the first of the times.
+    pub(super) fn difference_over(&self, other: &Kept, extent: f64, times: usize) -> f64 {
+        let (displacement, rotation) = self.motion().max(other.motion());
+        let (displacement, rotation) =
+            (displacement.max(1e-6 * rotation * extent), rotation.max(displacement / extent));
+        let (speed, spin) = self.speed().max(other.speed());
+        let (speed, spin) = (speed.max(1e-6 * spin * extent), spin.max(speed / extent));
+        let relative = |difference: f64, of: f64| if difference == 0.0 { 0.0 } else { difference / of };
+        let at = |time: usize| {
+            let moved =
+                self.displacements_at(time).iter().zip(other.displacements_at(time)).map(|(a, b)| (a - b).norm());
+            let turned = self.rotations_at(time).iter().zip(other.rotations_at(time));
+            let turned = turned.map(|(a, b)| angle(&(b * a.conjugate())));
+            let moved = relative(moved.fold(0.0, f64::max), displacement);
+            let at_rates = self.velocities_at(time).iter().zip(other.velocities_at(time));
+            let rates = at_rates.map(|([v, w], [v_other, w_other])| {
+                relative((v - v_other).norm(), speed).max(relative((w - w_other).norm(), spin))
+            });
+            moved.max(relative(turned.fold(0.0, f64::max), rotation)).max(rates.fold(0.0, f64::max))
+        };
+        ((0..times).map(|time| at(time).powi(2)).sum::<f64>() / times as f64).sqrt()
+    }
+
+    fn displacements_at(&self, time: usize) -> &[Vec3] {
+        let count = self.displacements.len() / self.times;
+        &self.displacements[time * count..(time + 1) * count]
+    }
+
+    fn rotations_at(&self, time: usize) -> &[Quaternion<f64>] {
+        let count = self.rotations.len() / self.times;
+        &self.rotations[time * count..(time + 1) * count]
+    }
+
+    fn velocities_at(&self, time: usize) -> &[[Vec3; 2]] {
+        let count = self.velocities.len() / self.times;
+        &self.velocities[time * count..(time + 1) * count]
+    }
+
+    /// The largest velocity and the largest angular velocity of a body.
+    fn speed(&self) -> Motion {
+        let largest = |of: usize| self.velocities.iter().map(|rates| rates[of].norm()).fold(0.0, f64::max);
+        Motion(largest(0), largest(1))
+    }
+
+    /// The largest displacement of a node and the largest rotation of a body.
+    fn motion(&self) -> Motion {
+        let moved = self.displacements.iter().map(|u| u.norm()).fold(0.0, f64::max);
+        Motion(moved, self.rotations.iter().map(angle).fold(0.0, f64::max))
+    }
+}
+
+/// The steps with these ends that another run has not gone; the error of a step is proportional to this power of its length.
+fn own_steps(ends: &[f64], other: &[f64], power: i32) -> OwnSteps {
+    let mut own = OwnSteps { count: 0, left: 0.0 };
+    let mut at = 0;
+    for step in ends.windows(2) {
+        let rounding = 1e-9 * (step[1] - step[0]);
+        while other.get(at).is_some_and(|time| *time < step[0] - rounding) {
+            at += 1;
+        }
+        let is = |place: usize, time: f64| other.get(place).is_some_and(|end| (end - time).abs() <= rounding);
+        if !(is(at, step[0]) && is(at + 1, step[1])) {
+            own.count += 1;
+            own.left += (step[1] - step[0]).powi(power);
+        }
+    }
+    own
+}
+
+/// The ratio of the errors of two runs whose errors of steps have sums in this ratio.
+pub(super) fn ratio_of_errors(sums: f64) -> f64 {
+    sums.powf(SLOPE)
+}
+
+/// Steps that the other run does not share: their number, and the sum of this power of their lengths.
+struct OwnSteps {
+    count: usize,
+    left: f64,
+}
+
+struct Motion(f64, f64);
+
+impl Motion {
+    fn max(self, other: Motion) -> (f64, f64) {
+        (self.0.max(other.0), self.1.max(other.1))
+    }
+}
+
+/// The angle of a rotation, in radians, up to π.
+fn angle(rotation: &Quaternion<f64>) -> f64 {
+    2.0 * rotation.imag().norm().atan2(rotation.w.abs())
+}
