@@ -121,7 +121,7 @@ impl Run<'_> {
                 stopped: false,
             },
         };
-        // In a scene with kinks a pilot run has steps by its own tolerance, and tells an error only if they are longer.
+        // In a scene with kinks a pilot run chooses its steps. Its difference gives an error only if they are longer.
         if let Some(pilot) = self.pilot.as_ref().filter(|pilot| pilot.is_whole() && self.has_kinks()) {
             let tolerance = asked.min(STRICTER * pilot.tolerance);
             (control.error.tolerance, control.error.least) = (tolerance, tolerance);
@@ -182,7 +182,7 @@ impl Run<'_> {
         }
     }
 
-    /// Prepares for another run in place of one that has failed, or whose predicted error is too large; `None` where this run stands.
+    /// Prepares for another run, if this one has failed or its predicted error is too large. `None`: this run stands.
     fn begin_instead(
         &mut self,
         (outcome, predicted, run): (&Outcome, Option<f64>, &Kept),

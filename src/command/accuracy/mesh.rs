@@ -68,9 +68,9 @@ struct Planned {
     times: Vec<i32>,
     /// The expected errors by group.
     expected: Vec<f64>,
-    /// True for groups whose error the run with this mesh does not tell.
+    /// True for groups without a measured error from this mesh.
     fixed: Vec<bool>,
-    /// The assumed factor between the errors of both meshes in the groups whose error the run tells. If one of them had no known error, it
+    /// The assumed factor between the errors of both meshes in the groups with a measured error. If one of them had no known error, it
     /// is the least of their factors.
     assumed: f64,
 }
@@ -86,7 +86,7 @@ impl Planned {
         others.map(|(error, _)| error).sum()
     }
 
-    /// The errors by group, if they are together `of_told` in the groups whose error the run tells.
+    /// The errors by group, if those of the groups with a measured error sum to `of_told`.
     fn errors(&self, of_told: f64) -> Vec<f64> {
         let both = || self.expected.iter().zip(&self.fixed);
         let sum: f64 = both().filter(|(_, fixed)| !**fixed).map(|(error, _)| error).sum();

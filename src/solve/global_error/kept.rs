@@ -30,7 +30,7 @@ pub struct Kept {
     pub met_events: bool,
     /// The tolerance of the steps of a pilot run.
     pub tolerance: f64,
-    /// The times at which the tolerance of the steps has changed.
+    /// The times of changes of the tolerance.
     pub changes: Vec<f64>,
 }
 
@@ -164,7 +164,7 @@ impl Kept {
         }
     }
 
-    /// The same over the first of the times.
+    /// The difference over the first times alone.
     pub(super) fn difference_over(&self, other: &Kept, extent: f64, times: usize) -> f64 {
         let (displacement, rotation) = self.motion().max(other.motion());
         let (displacement, rotation) =

@@ -94,7 +94,7 @@ impl<'o> LookAhead<'o> {
             self.predicted = Some(predicted);
             return;
         }
-        // Runs with nothing in common tell no error.
+        // The difference of two runs with nothing in common gives no error.
         if difference > SATURATED {
             return;
         }

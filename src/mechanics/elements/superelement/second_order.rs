@@ -30,7 +30,7 @@ pub struct Product {
     pub factor: f64,
 }
 
-/// SecondOrderMemory of an evaluation.
+/// Memory of an evaluation.
 #[derive(Debug, Clone, Default)]
 pub struct SecondOrderMemory {
     p: Vec<f64>,
@@ -48,7 +48,7 @@ pub struct SecondOrderMemory {
 }
 
 impl SecondOrderMemory {
-    /// SecondOrderMemory for these terms.
+    /// Memory for these terms.
     pub fn new(of: &SecondOrder) -> SecondOrderMemory {
         let count = of.stiffness.len();
         let vector = vec![0.0; count];
@@ -116,7 +116,7 @@ impl SecondOrder {
         self.add_rows(force, g);
     }
 
-    /// Adds the forces along the factors of the products, of forces along their sums.
+    /// Adds the forces on both coordinates of each product that follow from the force on its sum.
     fn add_products(&self, p: &[f64], sums: &[f64], force: &mut [f64]) {
         for Product { sum, of: [j, k], factor } in &self.terms {
             let by = factor * sums[*sum];
