@@ -30,12 +30,14 @@ pub struct Refresh {
     stale_beyond: f64,
     /// Size of the first correction of the current iteration, if its matrix was formed for it.
     first: Option<f64>,
-    /// True where the step gets a fresh matrix in every iteration, since anything less has failed.
-    fresh_matrix_required: bool,
+    /// Number of steps still to get a fresh matrix in every iteration, since anything less has failed, and the number to ask for when it
+    /// fails next.
+    required: usize,
+    next_required: usize,
 }
 
 keep!(Refresh {
-    dt, wanted, baseline, excess, eager, next_eager, stale_beyond, first, fresh_matrix_required,
+    dt, wanted, baseline, excess, eager, next_eager, stale_beyond, first, required, next_required,
  } without { method, update, cost, learns });
 
 /// The advice after a correction.
@@ -81,14 +83,15 @@ impl Refresh {
             next_eager: 1,
             stale_beyond: f64::INFINITY,
             first: None,
-            fresh_matrix_required: false,
+            required: 0,
+            next_required: 1,
         }
     }
 
     /// The moduli with which the matrix is formed.
     pub fn moduli(&self) -> Moduli {
         match self.method {
-            Method::InitialLoad if !self.fresh_matrix_required => Moduli::Elastic,
+            Method::InitialLoad if self.required == 0 => Moduli::Elastic,
             _ => Moduli::Algorithmic,
         }
     }
@@ -96,7 +99,7 @@ impl Refresh {
     /// True where the matrix is to be formed before the next solution; `iteration` counts from 0.
     pub fn due(&self, iteration: usize, dt: f64) -> bool {
         // Steps of equal length differ by the rounding of their ends.
-        if self.wanted || self.fresh_matrix_required || self.dt.is_none_or(|of| (of - dt).abs() > SAME_STEP * dt) {
+        if self.wanted || self.required > 0 || self.dt.is_none_or(|of| (of - dt).abs() > SAME_STEP * dt) {
             return true;
         }
         match self.update {
@@ -155,10 +158,9 @@ impl Refresh {
         if patient && (contraction < 1.0 || fresh) {
             return Advice::GoOn;
         }
-        if !fresh && contraction > MISLED && !self.fresh_matrix_required {
+        if !fresh && contraction > MISLED && self.required == 0 {
             self.wanted = true;
-            self.eager = self.next_eager;
-            self.next_eager = (2 * self.next_eager).min(MOST_EAGER);
+            ask_again(&mut self.eager, &mut self.next_eager);
             return Advice::Restart;
         }
         let pays = self.update == Update::Auto && judgement.remaining(self.learns) > 1.0 + self.cost;
@@ -168,27 +170,39 @@ impl Refresh {
 
     /// Counts an accepted step. Renewing a matrix pays once its excess iterations over a fresh one cost as much as the renewal.
     pub fn accepted(&mut self, iterations: usize) {
-        self.fresh_matrix_required = false;
         let baseline = *self.baseline.get_or_insert(iterations);
         self.excess += iterations.saturating_sub(baseline);
         self.wanted = self.update == Update::Auto && self.excess as f64 >= self.cost;
-        if self.eager > 0 {
-            self.eager -= 1;
-        } else {
-            self.next_eager = 1.max(self.next_eager / 2);
-        }
+        count_down(&mut self.eager, &mut self.next_eager);
+        count_down(&mut self.required, &mut self.next_required);
     }
 
     /// Discards the matrix after a failed step, because it belongs to a rejected motion.
     pub fn rejected(&mut self) {
         self.dt = None;
-        self.fresh_matrix_required = false;
     }
 
-    /// Asks, after a step that did not converge, for a fresh matrix in every iteration. Returns false if this was already required.
+    /// Asks, after a step that did not converge, for a fresh matrix in every iteration. Returns false if it was required already.
     pub fn require_fresh_matrix(&mut self) -> bool {
-        let more = !self.fresh_matrix_required && matches!(self.update, Update::Auto | Update::Step);
-        self.fresh_matrix_required |= more;
+        let more = self.required == 0 && matches!(self.update, Update::Auto | Update::Step);
+        if more {
+            ask_again(&mut self.required, &mut self.next_required);
+        }
         more
+    }
+}
+
+/// Asks for help in the coming steps, in twice as many as the last time.
+fn ask_again(steps: &mut usize, next: &mut usize) {
+    *steps = *next;
+    *next = (2 * *next).min(MOST_EAGER);
+}
+
+/// Counts a step with help, or one that needed none, after which the next call for help covers half as many steps.
+fn count_down(steps: &mut usize, next: &mut usize) {
+    if *steps > 0 {
+        *steps -= 1;
+    } else {
+        *next = 1.max(*next / 2);
     }
 }
