@@ -15,9 +15,13 @@ struct AxisSearch {
 
 impl AxisSearch {
     fn look(&mut self, axis: Vec3, gap: f64) {
+        self.look_if_wider(gap, || axis);
+    }
+
+    fn look_if_wider(&mut self, gap: f64, axis: impl FnOnce() -> Vec3) {
         // Rounding does not choose between axes that are as good.
         if gap > self.best.gap + 1e-9 * self.size {
-            self.best = LeastAxis { axis, gap };
+            self.best = LeastAxis { axis: axis(), gap };
         }
     }
 }
@@ -26,6 +30,11 @@ impl ConvexPose<'_> {
     /// The axis of the largest gap. For polyhedra it is a face normal or a product of two edges: they overlap if none of these separates
     /// them (S. Gottschalk, 1996).
     pub fn least_axis(&self) -> LeastAxis {
+        self.least_axis_within(f64::INFINITY)
+    }
+
+    /// As [`ConvexPose::least_axis`]; boxes further apart than a `limit` along the normal of a face may get that axis.
+    pub fn least_axis_within(&self, limit: f64) -> LeastAxis {
         if let ConvexShape::HalfSpace(_) = self.other {
             return LeastAxis { axis: Vec3::z(), gap: self.deepest(&Vec3::z()).z };
         }
@@ -36,7 +45,7 @@ impl ConvexPose<'_> {
             return Swept::of(self).map(|swept| swept.least_axis()).or_else(of_cylinder).unwrap_or(best);
         };
         match (pose.own.half(), pose.other.half()) {
-            (Some(own), Some(other)) => pose.look_along_boxes(own, other, &mut search),
+            (Some(own), Some(other)) => pose.look_along_boxes(own, other, limit, &mut search),
             _ => pose.look_along_polyhedra(&mut search),
         }
         search.best
@@ -44,24 +53,36 @@ impl ConvexPose<'_> {
 }
 
 impl PolyhedronPose<'_> {
-    /// Boxes: the 15 axes, to both sides at once.
-    fn look_along_boxes(&self, own: &Vec3, other: &Vec3, search: &mut AxisSearch) {
-        let reach = |axis: &Vec3| {
-            let own: f64 = (0..3).map(|k| own[k] * self.Q.column(k).dot(axis).abs()).sum();
-            own + other.dot(&axis.abs())
-        };
-        let mut look = |axis: Vec3| {
-            let along = self.y.dot(&axis);
-            search.look(axis * 1f64.copysign(along), along.abs() - reach(&axis));
-        };
-        (0..3).for_each(|k| look(Vec3::ith(k, 1.0)));
-        (0..3).for_each(|k| look(self.Q.column(k).into_owned()));
-        for i in 0..3 {
-            for j in 0..3 {
+    /// Boxes: the 15 axes, to both sides at once. On the axis e_i × Q_j the halves of the edges e_i and Q_j are points.
+    fn look_along_boxes(&self, own: &Vec3, other: &Vec3, limit: f64, search: &mut AxisSearch) {
+        let (Q, y, A) = (&self.Q, &self.y, self.Q.abs());
+        let along_own = Q.tr_mul(y);
+        let (reach_of_own, reach_of_other) = (A * own, A.tr_mul(other));
+        for k in 0..3 {
+            let gap = y[k].abs() - (other[k] + reach_of_own[k]);
+            search.look_if_wider(gap, || Vec3::ith(k, 1f64.copysign(y[k])));
+        }
+        for k in 0..3 {
+            let gap = along_own[k].abs() - (own[k] + reach_of_other[k]);
+            search.look_if_wider(gap, || Q.column(k) * 1f64.copysign(along_own[k]));
+        }
+        if search.best.gap > limit {
+            return;
+        }
+        const NEXT: [[usize; 2]; 3] = [[1, 2], [2, 0], [0, 1]];
+        for (i, [i1, i2]) in NEXT.into_iter().enumerate() {
+            for (j, [j1, j2]) in NEXT.into_iter().enumerate() {
+                let length = Q[(i1, j)].hypot(Q[(i2, j)]);
                 // Edges that are parallel have the plane of two faces between them.
-                if let Some(axis) = Vec3::ith(i, 1.0).cross(&self.Q.column(j)).try_normalize(1e-6) {
-                    look(axis);
+                if length <= 1e-6 {
+                    continue;
                 }
+                let along = y[i2] * Q[(i1, j)] - y[i1] * Q[(i2, j)];
+                let reach =
+                    other[i1] * A[(i2, j)] + other[i2] * A[(i1, j)] + own[j1] * A[(i, j2)] + own[j2] * A[(i, j1)];
+                search.look_if_wider((along.abs() - reach) / length, || {
+                    Vec3::ith(i, 1f64.copysign(along) / length).cross(&Q.column(j))
+                });
             }
         }
     }

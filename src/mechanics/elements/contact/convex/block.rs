@@ -99,7 +99,8 @@ impl Mechanics for ConvexPairs {
     fn update_history(&self, now: &Configuration, part: f64, history: &mut [f64]) -> Dissipation {
         let mut spent = Dissipation::default();
         for (e, new) in history.chunks_exact_mut(width(&self.law)).enumerate() {
-            spent += update_pair(&self.pair(e), self.history(e, now.history), now, part, new);
+            let pair = self.pair(e);
+            spent += update_pair(&pair, &pair.kinematics(now.nodes), self.history(e, now.history), now, part, new);
         }
         spent
     }
@@ -115,7 +116,7 @@ impl Branches for ConvexPairs {
     fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
         now.history.is_empty()
             || now.dt < self.history(e, now.history).safe_time()
-            || self.pair(e).kinematics(now.nodes).pose.least_axis().gap > self.law.touching
+            || self.pair(e).kinematics(now.nodes).pose.least_axis_within(self.law.touching).gap > self.law.touching
     }
 }
 

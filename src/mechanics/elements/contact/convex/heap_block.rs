@@ -75,8 +75,10 @@ impl Mechanics for ConvexHeap {
         let mut last = usize::MAX;
         self.each_near(now.nodes, self.margin, |e, other| {
             let pair = self.pair(e, other);
-            let gap = pair.kinematics(now.nodes).pose.least_axis().gap;
-            if gap > self.memorable(e) {
+            let at = pair.kinematics(now.nodes);
+            let memorable = self.memorable(e);
+            let gap = at.pose.least_axis_within(memorable).gap;
+            if gap > memorable {
                 return;
             }
             if e != last {
@@ -88,7 +90,7 @@ impl Mechanics for ConvexHeap {
             let Some(slot) = Some(kept).filter(|&kept| kept < SLOTS).or_else(free) else { return };
             let new = &mut own[slot * self.width..(slot + 1) * self.width];
             new.fill(0.0);
-            spent += update_pair(&pair, self.memory(now.history, e, other), now, part, new);
+            spent += update_pair(&pair, &at, self.memory(now.history, e, other), now, part, new);
             PairMemoryMut(new).set_key((other + 1) as f64);
             kept += 1;
         });

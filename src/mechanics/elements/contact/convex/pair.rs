@@ -127,6 +127,14 @@ pub(in crate::elements::contact) struct PairForce {
 }
 
 impl<'a> ConvexPair<'a> {
+    /// True where the balls about two bodies do not meet on straight ways from `start` to `end`; false where a ball is not at a node.
+    pub fn balls_miss(&self, start: &[Node], end: &[Node]) -> bool {
+        let is_ball = !matches!(self.other.shape, ConvexShape::HalfSpace(_)) && self.other.center == Vec3::zeros();
+        let between = |nodes: &[Node]| nodes[self.one.node].relative_position(&nodes[self.other.node]);
+        let from = between(start);
+        is_ball && from.norm() - (between(end) - from).norm() > self.one.shape.reach() + self.other.shape.reach()
+    }
+
     /// Where the two are to each other, and how they move.
     pub fn kinematics(&self, nodes: &[Node]) -> PairKinematics<'a> {
         let (one, carrier) = (&nodes[self.one.node], &nodes[self.other.node]);

@@ -10,15 +10,19 @@ use base::math::Vec3;
 /// True where a step from `start` to `now` must be shorter: one solid is through the other, or more than half way, or an impact is not
 /// resolved.
 pub(super) fn is_missed(pair: &ConvexPair, old: PairMemory, start: &[Node], now: &Configuration) -> bool {
+    if pair.balls_miss(start, now.nodes) {
+        return false;
+    }
     let [from, to] = [start, now.nodes].map(|nodes| pair.kinematics(nodes).pose);
     let length = (to.y - from.y).norm() + (to.Q - from.Q).norm() * from.own.reach();
     if from.apart() > length {
         return false;
     }
-    let (first, last) = (from.least_axis(), to.least_axis());
+    let first = from.least_axis_within(length);
     if first.gap > length {
         return false;
     }
+    let last = to.least_axis();
     if last.gap >= 0.0 {
         let through = first.gap <= 0.0 && is_opposite(&first.axis, &last.axis);
         return through || first.gap > 0.0 && passes(&from, &to, length);

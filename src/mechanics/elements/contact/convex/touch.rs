@@ -13,7 +13,7 @@ pub const SHALLOW: f64 = 1e-8;
 
 /// The depth of convex solids that overlap or touch; `None` for a gap above `touching`.
 pub fn depth(pose: &ConvexPose, touching: f64) -> Option<Depth> {
-    let least = pose.least_axis();
+    let least = pose.least_axis_within(touching);
     if least.gap > touching {
         return None;
     }

@@ -13,24 +13,24 @@ use crate::state::Configuration;
 use base::math::rotation::{exp, matrix};
 use base::math::{Vec3, angular, linear};
 
-/// Writes the history of a pair after `part` of the way from the last state to `now`; returns the dissipation.
+/// Writes the history of a pair, at `at` in `now`, after `part` of the way from the last state; returns the dissipation.
 pub(super) fn update_pair(
     pair: &ConvexPair,
+    at: &PairKinematics,
     old: PairMemory,
     now: &Configuration,
     part: f64,
     numbers: &mut [f64],
 ) -> Dissipation {
     let law = pair.law;
-    let at = pair.kinematics(now.nodes);
     let speed = linear(&at.rates).norm() + angular(&at.rates).norm() * at.pose.own.reach();
     let mut new = PairMemoryMut(numbers);
     if let Some(spent) = pass_over(law, (at.pose.apart(), speed), now, old, &mut new) {
         return spent;
     }
-    let acting = pair.force(&at, old);
+    let acting = pair.force(at, old);
     let (gap, rate) =
-        acting.as_ref().map_or_else(|| approach(&at), |acting| (acting.inset - acting.depth.D, acting.rate));
+        acting.as_ref().map_or_else(|| approach(at), |acting| (acting.inset - acting.depth.D, acting.rate));
     let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
     let inset = acting.as_ref().map_or(0.0, |acting| acting.inset);
     let motion = NormalMotion { gap, inset, rate, power: damping_power(law, gap, rate, force), speed };
@@ -38,7 +38,7 @@ pub(super) fn update_pair(
     let mut spent = Dissipation { impact, ..Dissipation::default() };
     new.set_inset(law, inset);
     if law.friction > 0.0 {
-        spent.friction = update_friction((&at, acting.as_ref()), (law, now.dt), way(old, part), old, &mut new);
+        spent.friction = update_friction((at, acting.as_ref()), (law, now.dt), way(old, part), old, &mut new);
     }
     spent
 }
