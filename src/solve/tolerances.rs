@@ -348,14 +348,12 @@ pub mod error_controlled {
     pub const SAFETY: f64 = 0.9;
     /// Steps grow only where they may by this factor, and by no more than two, since a new length costs a new matrix.
     pub const WORTH: f64 = 1.4;
-    /// Errors oscillate with the motion, and their sum counts, so lengths follow a mean over this fraction of the run, ...
+    /// Errors oscillate with the motion, and their sum counts, so lengths follow a mean over this fraction of the run.
     pub const SPAN: f64 = 0.05;
-    /// ... with at least this weight of the last step.
-    pub const WEIGHT: f64 = 0.002;
     /// Fraction of the sum of all errors that remains at the end. Steady growth to 1 of an oscillation has a root mean square of 1/√6 over
     /// a run; errors partly cancel, as the models B1, C4 and X1 show.
     pub const MEAN: f64 = 0.3;
-    /// This fraction for Runge-Kutta schemes: their errors mainly damp the motion, and cancel less.
+    /// This fraction of the damping by Runge-Kutta schemes, which cancels less.
     pub const MEAN_OF_STAGES: f64 = 0.6;
     /// Least number of steps of a run.
     pub const FEWEST: f64 = 50.0;

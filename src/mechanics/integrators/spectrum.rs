@@ -22,10 +22,17 @@ pub fn spectrum(scheme: &dyn Scheme, turn: f64) -> Spectrum {
     Spectrum { elongation: turn / phase - 1.0, damping: log / phase.hypot(log) }
 }
 
+/// The ω Δt at which error constants are measured: small, and far above the rounding of eigenvalues.
+const TURN: f64 = 0.1;
+
 /// The error constant c of a scheme of order p: a step of smooth motion makes an error c Δtᵖ⁺¹ |q⁽ᵖ⁺¹⁾| of a displacement.
 pub fn error_constant(scheme: &dyn Scheme) -> f64 {
-    const TURN: f64 = 0.1; // small, and far above the rounding of eigenvalues
     (principal(scheme, TURN) - Complex::from_polar(1.0, TURN)).norm() / TURN.powi(scheme.order() as i32 + 1)
+}
+
+/// The constant d of the error of phase d (ω Δt)⁵ that a step of a scheme of third order makes besides its damping.
+pub fn phase_constant(scheme: &dyn Scheme) -> f64 {
+    (principal(scheme, TURN).arg() - TURN).abs() / TURN.powi(5)
 }
 
 /// The eigenvalue that approximates e^{iωΔt}.

@@ -1,7 +1,8 @@
 //! Implicit steps whose length follows an estimate of their error.
 //!
 //! Schemes of second order have the error c Δt³|q‴| in smooth motion; for Newmark see O. C. Zienkiewicz & Y. M. Xie, Earthquake Eng.
-//! Struct. Dyn. 20 (1991). Unresolved modes have large accelerations and hardly move. The matrix of the step filters the estimate e, (K +
+//! Struct. Dyn. 20 (1991). Schemes of third order damp by c Δt⁴ q⁗, and their error of phase is d Δt⁵ q⁽⁵⁾. The second is the larger one
+//! with fewer than 15 steps a period of ESDIRK3; q⁽⁵⁾ is the difference of q⁗ in two steps. Unresolved modes have large accelerations and hardly move. The matrix of the step filters the estimate e, (K +
 //! wM)⁻¹wM e, which keeps resolved modes (L. F. Shampine & L. S. Baca, J. Comput. Appl. Math. 11 (1984)).
 //!
 //! Errors of steps add up: each step may use the share of the tolerance that its length has of the run; their lasting
@@ -20,12 +21,12 @@ use crate::step::size::Size;
 use crate::step::tangent::IterationMatrix;
 use crate::step::trial::Stage;
 use crate::tolerances::error_controlled::{
-    FEWEST, FILTERS, MEAN, MEAN_OF_STAGES, RESOLVED, SAFETY, SLIGHT, SPAN, TOO_MUCH, TRIALS, WEIGHT, WORTH,
+    FEWEST, FILTERS, MEAN, MEAN_OF_STAGES, RESOLVED, SAFETY, SLIGHT, SPAN, TOO_MUCH, TRIALS, WORTH,
 };
 use crate::workspace::Workspace;
 use base::math::{Vec3, Vec6, stack};
 use base::snapshot::keep;
-use mechanics::integrators::spectrum::error_constant;
+use mechanics::integrators::spectrum::{error_constant, phase_constant};
 use mechanics::integrators::{AlphaFamily, RotationUpdate};
 use mechanics::state::State;
 
@@ -38,6 +39,8 @@ pub struct ErrorController<'a> {
     asked: f64,
     /// The error constant c of the scheme.
     constant: f64,
+    /// The constant d of the error of phase; 0 for schemes of second order.
+    of_phase: f64,
     /// The order p of the scheme.
     order: i32,
     /// Length of the next step, and the longest allowed.
@@ -51,6 +54,11 @@ pub struct ErrorController<'a> {
     /// lasting errors and of all.
     lasting_intensity: Option<f64>,
     intensity: Option<f64>,
+    /// The part of the run that these means cover.
+    covered: f64,
+    /// The fourth derivatives q⁗ in the last step by node, and its length; `None` if there was none before.
+    fourth: Vec<Vec6>,
+    last: Option<f64>,
     /// Largest displacement of a node and largest rotation of a body so far.
     motion: Size,
     measure: ErrorMeasure,
@@ -65,8 +73,9 @@ pub struct ErrorController<'a> {
 }
 
 keep!(ErrorController<'_> {
-    stepper, tolerance, length, longest, lasting_intensity, intensity, motion, measure, start, inside, errors, lasting, events,
- } without { asked, constant, order, first, most });
+    stepper, tolerance, length, longest, lasting_intensity, intensity, covered, fourth, last, motion, measure, start, inside, errors,
+    lasting, events,
+ } without { asked, constant, of_phase, order, first, most });
 
 /// An estimated error relative to the largest motion.
 struct Estimate {
@@ -79,12 +88,16 @@ impl<'a> ErrorController<'a> {
     /// A controller with this tolerance and first step.
     pub fn new(cx: &Context, stepper: Box<Implicit<'a>>, tolerance: f64, first: f64) -> Self {
         let (nodes, scheme) = (cx.model.nodes.len(), &*cx.model.solution.scheme);
-        let mean = if stepper.stages().is_some() { MEAN_OF_STAGES } else { MEAN };
+        let [mean, of_phase] = match stepper.stages() {
+            Some(_) => [MEAN_OF_STAGES, MEAN * phase_constant(scheme)],
+            None => [MEAN, 0.0],
+        };
         ErrorController {
             stepper,
             tolerance,
             asked: tolerance,
             constant: mean * error_constant(scheme),
+            of_phase,
             order: scheme.order() as i32,
             length: first,
             longest: cx.model.analysis.duration() / FEWEST,
@@ -92,6 +105,9 @@ impl<'a> ErrorController<'a> {
             most: cx.model.analysis.duration() / FEWEST,
             lasting_intensity: None,
             intensity: None,
+            covered: 0.0,
+            fourth: vec![Vec6::zeros(); nodes],
+            last: None,
             motion: Size::default(),
             measure: ErrorMeasure::new(cx.model, cx.length),
             start: State::default(),
@@ -122,6 +138,7 @@ impl<'a> ErrorController<'a> {
             self.length =
                 dt * if ratio.is_finite() { (SAFETY / ratio).powf(1.0 / f64::from(self.order)).max(0.1) } else { 0.1 };
             self.lasting_intensity = Some(all).filter(|all| all.is_finite());
+            (self.covered, self.last) = (0.0, None);
             return false;
         }
         // Earlier errors count less by the growth of the motion.
@@ -129,11 +146,14 @@ impl<'a> ErrorController<'a> {
         let grown = if before > 0.0 { after / before } else { 1.0 };
         self.motion = estimate.motion;
         let factor = self.constant * dt.powi(self.order + 1);
-        let tau = (self.constant * dt.powi(self.order) * end_time).powf(1.0 / f64::from(self.order + 1));
+        let corner = |constant: f64, order: i32| (constant * dt.powi(order) * end_time).powf(1.0 / f64::from(order + 1));
+        let tau = corner(self.constant, self.order).max(corner(self.of_phase, self.order + 1));
         self.lasting.update(&self.errors[0], factor, dt, tau);
         let lasting = factor * self.measure.relative(self.lasting.value(), self.motion, time);
         let lasting = lasting / (self.tolerance * part) / dt.powi(self.order);
-        let weight = (part / SPAN).clamp(WEIGHT, 1.0);
+        // The first step is short, and counts as long as it is.
+        self.covered += part;
+        let weight = (part / SPAN.min(self.covered)).min(1.0);
         let update =
             |mean: Option<f64>, now: f64| mean.map_or(now, |mean| mean / grown + weight * (now - mean / grown));
         let mean = update(self.lasting_intensity, lasting);
@@ -187,6 +207,7 @@ impl<'a> ErrorController<'a> {
     fn estimate(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> Estimate {
         let motion = self.measure.with(self.motion, cx.model, state);
         self.write_errors(cx, state, dt);
+        self.last = Some(dt);
         let matrix = &mut self.stepper.solver.newton.matrix;
         let [errors, again] = &mut self.errors;
         let relative = |errors: &[Vec6]| self.measure.relative(errors, motion, state.time);
@@ -213,13 +234,18 @@ impl<'a> ErrorController<'a> {
         Estimate { error, motion }
     }
 
-    /// Writes c Δtᵖ⁺¹ q⁽ᵖ⁺¹⁾ of the step of length `dt` that led to `state`, by node.
+    /// Writes c Δtᵖ⁺¹ q⁽ᵖ⁺¹⁾ and the error of phase of the step of length `dt` that led to `state`, by node.
     fn write_errors(&mut self, cx: &Context, state: &State, dt: f64) {
         let errors = &mut self.errors[0];
         errors.fill(Vec6::zeros());
+        let of_phase = self.last.map_or(0.0, |last| self.of_phase * dt.powi(5) / (0.5 * (last + dt)));
         for (k, &node) in cx.independent_nodes.iter().enumerate() {
             let error = match self.stepper.stages() {
-                Some(stages) => stages.fourth_derivative(cx, k) * (self.constant * dt * dt),
+                Some(stages) => {
+                    let fourth = stages.fourth_derivative(cx, k) / (dt * dt);
+                    let before = std::mem::replace(&mut self.fourth[node], fourth);
+                    fourth * (self.constant * dt.powi(4)) + (fourth - before) * of_phase
+                }
                 None => third_derivative(&self.start, state, node) * (self.constant * dt.powi(3)),
             };
             errors[node] = cx.plan.dofs.of(node).mask(&error);
@@ -257,6 +283,7 @@ impl FollowTolerance for ErrorController<'_> {
         self.length = self.first * (tolerance / self.asked).powf(1.0 / f64::from(self.order)).clamp(1.0, 2.0);
         self.longest = longest.unwrap_or(self.most);
         (self.lasting_intensity, self.intensity) = (None, None);
+        (self.covered, self.last) = (0.0, None);
         self.lasting.forget();
         self.events = EventLimit::default();
     }
@@ -265,6 +292,7 @@ impl FollowTolerance for ErrorController<'_> {
 impl StepController for ErrorController<'_> {
     fn restart(&mut self, _: &Context, _: &mut Workspace, state: &mut State) {
         self.stepper.restart(state);
+        self.last = None;
         self.start.clone_from(state);
         if self.looks_inside() {
             self.inside.clone_from(state);
