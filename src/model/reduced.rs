@@ -14,6 +14,7 @@ use deck::Deck;
 use deck::part_table::{MassKind, ReducedTable};
 use deck::parts::{DeckPart, PartKind};
 use deck::words::{NumberOrTable, Table};
+use mechanics::elements::superelement::RIGID_LOADS;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -138,6 +139,7 @@ fn pieces(model: &Model, of: &Asked, (parts, count): (&[usize], usize), report: 
         interface: Vec::new(),
         inner: Vec::new(),
         amplitudes: Vec::new(),
+        modes: 0,
         up_to: None,
         geometric: true,
         damping: OwnDamping::default(),
@@ -215,9 +217,9 @@ fn reduction(
         Some(elements) => format!("{}, elements {} to {}", of.name, elements.start + 1, elements.end),
         None => of.name.clone(),
     };
-    let amplitudes = amplitudes(model, &label, interface[0], extent.modes.min(most));
-    let (up_to, geometric) = (extent.up_to, extent.geometric);
-    Some(Reduction { interface, inner, amplitudes, up_to, geometric, damping, ..piece })
+    let amplitudes = amplitudes(model, &label, interface[0], (extent.modes + RIGID_LOADS).min(most));
+    let Extent { modes, up_to, geometric, .. } = *extent;
+    Some(Reduction { interface, inner, amplitudes, modes: modes.min(most), up_to, geometric, damping, ..piece })
 }
 
 /// Refuses parts that no elements join: they have one frame.

@@ -746,6 +746,10 @@ pub mod shape {
 pub mod gyroscopic {
     /// Kinetic energy across the axis of the spin, as a part of that along and about it, below which it is rounding.
     pub const ORBIT: f64 = 1e-10;
+    /// Small motion for differences of forces: its square, and rounding over it, are below 1e-7.
+    pub const STEP: f64 = 1e-4;
+    /// Difference of the shapes of a round part and those turned about its axis, as a part of these: rounding of pairs of modes.
+    pub const ROUND: f64 = 1e-6;
     /// An asymmetry below this part is rounding.
     pub const SYMMETRIC: f64 = 1e-9;
     /// Part of a mode's kinetic energy across the axis of a rotation below which its Coriolis forces change the frequency by no more than such a part.
@@ -975,7 +979,7 @@ pub mod throws {
 }
 
 pub mod second_order {
-    /// Most unknowns of a reduced part with terms of second order. Each tangent costs the square of their number for each coordinate.
+    /// Most unknowns of interface and modes of a reduced part with terms of second order. Each tangent costs the square of their number for each coordinate.
     pub const LARGEST: usize = 100;
     /// The softest coordinates, whose products count. Stiffer ones stay small.
     pub const SOFT: usize = 20;
@@ -998,6 +1002,14 @@ pub mod reduction {
     pub const ALIKE: f64 = 1e-10;
     /// Most unknowns of an interface: with 500 modes each of twelve matrices over both has 50 MB.
     pub const MOST: usize = 2000;
+    /// Difference of two squared frequencies of a pair, as a part of these: rounding.
+    pub const PAIR: f64 = 1e-8;
+    /// An inertia load below this part of the largest is rounding of places.
+    pub const UNLOADED: f64 = 1e-9;
+    /// Eigenvalue of the energies of inertia loads below which a combination of them has no shape. Loads that differ by rotary inertia share one.
+    pub const REPEATED: f64 = 1e-6;
+    /// Least missing part of the energy of an inertia load for a static shape. Stretching has more beside bending.
+    pub const LACKING: f64 = 1e-9;
     /// Unknowns of an interface that are few, even if they are more than the unknowns inside.
     pub const FEW: usize = 300;
 }

@@ -118,8 +118,8 @@ fn a_slider_crank_approaches_that_of_all_elements() {
         assert!(drift < 1e-3, "{drift:e}");
         largest(&full, &few)
     });
-    // The first mode bends across the plane. In metres, of a deflection of some 0.3 mm.
-    assert!(errors[2] < 0.2 * errors[0] && errors[2] < 1e-5, "{errors:?}");
+    // In metres, of a deflection of some 0.3 mm, with static shapes of inertia loads; without these 0 modes erred by 5e-5.
+    assert!(errors[2] < errors[0] && errors[0] < 1e-6, "{errors:?}");
 }
 
 /// Two panels with a common edge.

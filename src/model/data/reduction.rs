@@ -21,8 +21,10 @@ pub struct Reduction {
     pub interface: Vec<usize>,
     /// The other nodes of the parts, ascending.
     pub inner: Vec<usize>,
-    /// A node for each modal amplitude that the deck asks for.
+    /// A node for each amplitude; until the matrices are there, as many as there may be.
     pub amplitudes: Vec<usize>,
+    /// The number of modes in the deck.
+    pub modes: usize,
     /// The highest frequency that is kept; `None` without a bound.
     pub up_to: Option<f64>,
     /// True with terms of second order.
@@ -51,6 +53,13 @@ impl Reduction {
     }
 }
 
+impl ReducedPart {
+    /// The mass.
+    pub fn mass(&self) -> f64 {
+        self.integrals.as_ref().map_or(0.0, |integrals| integrals.mass())
+    }
+}
+
 /// A reduced part by its matrices and shapes.
 #[derive(Debug, Clone)]
 pub struct ReducedPart {
@@ -62,6 +71,8 @@ pub struct ReducedPart {
     pub integrals: Option<Arc<InertiaIntegrals>>,
     /// Frequencies of the modes with a fixed interface, ascending.
     pub frequencies: Vec<f64>,
+    /// The number of static shapes of inertia loads, whose amplitudes follow those of the modes.
+    pub inertia_shapes: usize,
     /// The frequency of the first mode that is left out; `None` where none is, or it is not known.
     pub next: Option<f64>,
     /// Unknowns of the inner nodes, which the amplitudes replace.

@@ -28,7 +28,7 @@ impl Likeness {
         each_element(at, &at.nodes_at_rest(), |of_element, _, K| {
             elements.push((of_element.iter().map(|&node| own.place[node]).collect(), K.to_vec()));
         });
-        let asked = (of.interface.len(), of.amplitudes.len(), of.up_to, of.geometric);
+        let asked = (of.interface.len(), of.modes, of.up_to, of.geometric);
         Likeness { asked, masses: reduced::masses(model, of, &own.place), elements }
     }
 
@@ -52,7 +52,7 @@ impl Likeness {
     /// The matrices of a known part that is alike, on the nodes of another.
     pub fn find(&self, known: &Known, of: &Reduction) -> Option<ReducedPart> {
         let (_, made) = known.iter().find(|(other, _)| self.is_alike(other))?;
-        let amplitudes = &of.amplitudes[..made.frequencies.len()];
+        let amplitudes = &of.amplitudes[..made.matrices.amplitudes()];
         let nodes = of.interface.iter().chain(amplitudes).copied().collect();
         Some(ReducedPart { matrices: SuperelementData { nodes, ..made.matrices.clone() }, ..(**made).clone() })
     }

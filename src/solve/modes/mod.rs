@@ -10,6 +10,7 @@ mod damped;
 mod damping_modes;
 mod fault;
 mod gyroscopic;
+mod inertia_shapes;
 mod linearized;
 mod matrices;
 mod modal;

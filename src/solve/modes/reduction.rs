@@ -1,11 +1,12 @@
 //! Reduced parts: their stiffness and mass over the motions of the interface and modes with a fixed interface.
 //!
 //! The static shapes Ψ are the motions of inner nodes, without inertia, by unit motions of the interface; the modes φ have a fixed interface.
-//! With Φ = [Ψ φ] the matrices are Φᵀ K Φ and Φᵀ M Φ (R. R. Craig, M. C. C. Bampton, AIAA J. 6 (1968) 1313-1319). They keep the rigid motions,
+//! Static responses to rigid inertia loads join them (`inertia_shapes`). With Φ = [Ψ φ] the matrices are Φᵀ K Φ and Φᵀ M Φ (R. R. Craig, M. C. C. Bampton, AIAA J. 6 (1968) 1313-1319). They keep the rigid motions,
 //! the static stiffness and the mass of the part. K and M are those of the part at t = 0, without loads.
 
 use super::alike::{Known, Likeness, may_be_like_another};
 use super::fault::ModesFault;
+use super::inertia_shapes::inertia_shapes;
 use super::linearized::Linearized;
 use super::modal::natural_pairs;
 use super::own_nodes::{OwnNodes, each_element};
@@ -13,11 +14,12 @@ use super::pencil::Pencil;
 use super::second_order::second_order;
 use crate::plan::Plan;
 use crate::system::{Loading, System, reduced};
-use crate::tolerances::reduction::{CARRIED, FEW, MOST};
+use crate::tolerances::reduction::{CARRIED, FEW, MOST, PAIR};
+use crate::tolerances::second_order::LARGEST;
 use base::diagnostic::Diagnostic;
 use base::math::{Vec3, Vec6};
 use mechanics::elements::superelement::{
-    FloatingElement, InertiaIntegrals, SecondOrder, SuperelementData, dot, products,
+    FloatingElement, InertiaIntegrals, ModalMass, SecondOrder, SuperelementData, dot, products,
 };
 use mechanics::state::{Node, State};
 use model::{
@@ -53,11 +55,12 @@ pub fn reduce(models: &mut [&mut Model]) -> Result<(), Vec<Diagnostic>> {
     if problems.is_empty() { Ok(()) } else { Err(problems) }
 }
 
-/// Gives a model the matrices of a reduced part. Nodes of amplitudes beyond its modes are left without one.
+/// Gives a model the matrices of a reduced part. Nodes beyond its amplitudes are left without one, and without a name.
 fn keep(model: &mut Model, index: usize, made: &Arc<ReducedPart>) {
     let Some(of) = model.reductions.get_mut(index) else { return };
-    for node in of.amplitudes.drain(made.frequencies.len()..) {
+    for node in of.amplitudes.drain(made.matrices.amplitudes()..) {
         model.nodes[node].is_number = false;
+        model.nodes[node].label.clear();
     }
     of.made = Some(made.clone());
 }
@@ -118,7 +121,7 @@ fn alone(model: &Model, of: &Reduction) -> Model {
     let held = |&node: &usize| (0..6).map(move |dof| Restraint { node, dof, motion: None });
     own.constraints.restraints = of.interface.iter().flat_map(held).collect();
     let analysis = &mut own.analysis;
-    let asked = ModesAsked { extent: ModeExtent::Count(of.amplitudes.len()), damped: false, speeds: Vec::new() };
+    let asked = ModesAsked { extent: ModeExtent::Count(of.modes), damped: false, speeds: Vec::new() };
     (analysis.kind, analysis.is_linear, analysis.plane) = (AnalysisKind::Modal(asked), false, false);
     (analysis.begin, analysis.end_time, analysis.stage) = (0.0, 1.0, None);
     analysis.step_length = StepLength::Fixed { step: 1.0 };
@@ -165,34 +168,48 @@ fn reduced(model: &Model, of: &Reduction, known: &mut Known) -> Result<Arc<Reduc
     }
     let (mut solver, mut assembly) = at.symmetric_solver().map_err(|error| error.to_string())?;
     let mut pencil = Pencil::new(at, (&mut solver, &mut assembly));
-    let pairs = inner_modes(&mut pencil, of)?;
-    let columns = columns(&mut pencil, (of, &own), &pairs.kept)?;
-    let shapes = Shapes { of, model, own, at, columns };
-    let made = Arc::new(shapes.into_part(&pairs)?);
+    let mut pairs = inner_modes(&mut pencil, of)?;
+    match pencil.factor(0.0) {
+        Ok(0) => {}
+        Ok(_) => return Err("with its interface held, it is unstable at t = 0".to_owned()),
+        Err(row) => return Err(words(&pencil.singular(row))),
+    }
+    let rows: Vec<usize> = plan.dofs.nodal_dofs().iter().map(|(node, dof)| 6 * own.place[*node] + dof).collect();
+    let masses = reduced::masses(model, of, &own.place);
+    let (loads, count) = (masses.rigid_loads(), pairs.kept.len());
+    let loads = loads.column_iter().map(|load| rows.iter().map(|&row| load[row]).collect()).collect();
+    pairs.kept.extend(inertia_shapes(&mut pencil, loads, &pairs.kept));
+    let columns = columns(&mut pencil, (of, &own, &rows), &pairs.kept);
+    let shapes = Shapes { of, own, at, columns, masses };
+    let made = Arc::new(shapes.into_part(&pairs, count)?);
     known.extend(likeness.map(|likeness| (likeness, made.clone())));
     Ok(made)
 }
 
 /// The modes with a fixed interface.
 struct InnerModes {
-    /// ω² and the motion of the unknowns.
+    /// ω² and the motion of the unknowns; static shapes follow the modes.
     kept: Vec<(f64, Vec<f64>)>,
     /// The frequency of the first mode beyond.
     next: Option<f64>,
 }
 
 fn inner_modes(pencil: &mut Pencil, of: &Reduction) -> Result<InnerModes, String> {
-    let asked = of.amplitudes.len();
+    let asked = of.modes;
     let own = pencil.at.unknowns();
     if asked == 0 || pencil.mass.is_zero() {
         return Ok(InnerModes { kept: Vec::new(), next: None });
     }
     let with_mass = (0..own).filter(|&row| pencil.mass.row(row).any(|(_, mass)| mass != 0.0)).count();
-    let count = (asked + 1).min(with_mass);
+    let count = (asked + 2).min(with_mass);
     let mut kept = natural_pairs(pencil, ModeExtent::Count(count)).map_err(|fault| words(&fault))?;
     let frequency = |square: f64| square.max(0.0).sqrt() / TAU;
     let within = kept.iter().take(asked).filter(|(square, _)| of.up_to.is_none_or(|most| frequency(*square) <= most));
-    let within = within.count();
+    let mut within = within.count();
+    // Pairs stay whole, so that a round part has the same shapes in all directions.
+    if within == asked && kept.get(asked).is_some_and(|(next, _)| *next <= (1.0 + PAIR) * kept[asked - 1].0) {
+        within += 1;
+    }
     let next = kept.get(within).map(|(square, _)| frequency(*square));
     kept.truncate(within);
     Ok(InnerModes { kept, next })
@@ -213,18 +230,11 @@ fn words(fault: &ModesFault) -> String {
 /// The motions of the nodes of a part by a unit of each degree of freedom of the superelement: six rows for each node.
 fn columns(
     pencil: &mut Pencil,
-    (of, own): (&Reduction, &OwnNodes),
+    (of, own, rows): (&Reduction, &OwnNodes, &[usize]),
     modes: &[(f64, Vec<f64>)],
-) -> Result<DMatrix<f64>, String> {
+) -> DMatrix<f64> {
     let at = pencil.at;
-    match pencil.factor(0.0) {
-        Ok(0) => {}
-        Ok(_) => return Err("with its interface held, it is unstable at t = 0".to_owned()),
-        Err(row) => return Err(words(&pencil.singular(row))),
-    }
     let placed = 6 * of.interface.len();
-    let row_of = |&(node, dof): &(usize, usize)| 6 * own.place[node] + dof;
-    let rows: Vec<usize> = at.plan.dofs.nodal_dofs().iter().map(row_of).collect();
     let mut statics = vec![vec![0.0; at.unknowns()]; placed];
     let moved = |nodes: &[Node], statics: &[Vec<f64>]| -> Vec<Vec<Vec6>> {
         let of_unit = |(k, x): (usize, &Vec<f64>)| {
@@ -245,7 +255,7 @@ fn columns(
     }
     let mut columns = moved(&pencil.nodes, &statics);
     columns.extend(modes.iter().map(|(_, x)| own.of(&at.motions(&pencil.nodes, x))));
-    Ok(own.matrix(&columns))
+    own.matrix(&columns)
 }
 
 /// K times motions of the nodes of a part.
@@ -269,18 +279,18 @@ fn forces(at: &Linearized, nodes: &[Node], own: &OwnNodes, columns: &DMatrix<f64
 /// The shapes of a part.
 struct Shapes<'a> {
     of: &'a Reduction,
-    model: &'a Model,
     own: OwnNodes,
     at: Linearized<'a>,
     /// Six rows for each node of the part, and a column for each degree of freedom of the superelement.
     columns: DMatrix<f64>,
+    masses: ModalMass,
 }
 
 impl Shapes<'_> {
-    fn into_part(mut self, modes: &InnerModes) -> Result<ReducedPart, String> {
+    /// The part, with so many modes among the shapes of its inside.
+    fn into_part(mut self, modes: &InnerModes, count: usize) -> Result<ReducedPart, String> {
         let (of, placed) = (self.of, 6 * self.of.interface.len());
-        let masses = reduced::masses(self.model, of, &self.own.place);
-        let mut mass = masses.matrix(&self.columns);
+        let mut mass = self.masses.matrix(&self.columns);
         let total = (0..3).map(|axis| self.total(&mass, axis)).sum::<f64>() / 3.0;
         // Amplitudes are as large as displacements that have their energy.
         for column in placed..self.columns.ncols() {
@@ -316,13 +326,16 @@ impl Shapes<'_> {
             damping: Arc::from([]),
             second_order: None,
         };
-        matrices.second_order = self.second_order(&made.stiffness, &matrices).map(Arc::new);
+        if of.geometric && placed + count <= LARGEST {
+            matrices.second_order = self.second_order(&made.stiffness, &matrices).map(Arc::new);
+        }
         let shapes = self.columns.column_iter().flat_map(|column| column.into_owned().as_slice()[placed..].to_vec());
         let shapes = shapes.collect();
-        let integrals = has_mass.then(|| Arc::new(InertiaIntegrals::new(&masses, &self.columns)));
-        let frequencies = modes.kept.iter().map(|(square, _)| square.max(0.0).sqrt() / TAU).collect();
+        let integrals = has_mass.then(|| Arc::new(InertiaIntegrals::new(&self.masses, &self.columns)));
+        let frequencies = modes.kept[..count].iter().map(|(square, _)| square.max(0.0).sqrt() / TAU).collect();
         let replaced = self.at.unknowns();
-        Ok(ReducedPart { matrices, shapes, integrals, frequencies, next: modes.next, replaced })
+        let inertia_shapes = modes.kept.len() - count;
+        Ok(ReducedPart { matrices, shapes, integrals, frequencies, inertia_shapes, next: modes.next, replaced })
     }
 
     /// The mass that moves along an axis.
@@ -331,11 +344,8 @@ impl Shapes<'_> {
         along().flat_map(|row| along().map(move |column| (row, column))).map(|at| mass[at]).sum()
     }
 
-    /// The terms of second order, if the deck does not leave them out.
+    /// The terms of second order.
     fn second_order(&self, stiffness: &DMatrix<f64>, made: &SuperelementData) -> Option<SecondOrder> {
-        if !self.of.geometric {
-            return None;
-        }
         let x: Vec<Vec3> = self.at.model.nodes.iter().map(|node| node.x).collect();
         let element = FloatingElement::new(made.clone(), &x, 0.0);
         second_order(&self.at, (&self.own, &self.columns), (stiffness, &element))

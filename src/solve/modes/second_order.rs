@@ -6,7 +6,7 @@
 
 use super::linearized::Linearized;
 use super::own_nodes::{OwnNodes, each_element};
-use crate::tolerances::second_order::{LARGEST, LEAST, MECHANISM, SLOPE, SOFT, TRANSLATION};
+use crate::tolerances::second_order::{LEAST, MECHANISM, SLOPE, SOFT, TRANSLATION};
 use base::math::rotation::{exp, rates};
 use base::math::{Vec3, stack};
 use mechanics::elements::Force;
@@ -15,7 +15,7 @@ use mechanics::state::{Configuration, Node};
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeSet;
 
-/// The terms of a part with these shapes and this stiffness. `None`: it is too large, or has no elastic motion. Displacements are those in the
+/// The terms of a part with these shapes and this stiffness. `None`: it has no elastic motion. Displacements are those in the
 /// frame of `element`, because a turn shortens a bent part along an axis at rest.
 pub fn second_order(
     at: &Linearized,
@@ -23,9 +23,6 @@ pub fn second_order(
     (stiffness, element): (&DMatrix<f64>, &FloatingElement),
 ) -> Option<SecondOrder> {
     let size = shapes.ncols();
-    if size > LARGEST {
-        return None;
-    }
     let slopes = slopes(at, own, shapes);
     let gram = slopes.tr_mul(&slopes);
     let factor = gram.clone().cholesky()?.unpack();

@@ -8,6 +8,7 @@
 //! is the same about all axes. Forces follow from Lagrange's equations:
 //!   F = ṗ + Ω × p,  h = L̇ + Ω × L + V × p,  g = d/dt ∂T/∂q̇ − ∂T/∂q.
 
+use super::frame::axial;
 use super::recovery::FrameMotion;
 use super::{FloatingElement, Scratch, dot, multiply};
 use crate::elements::Force;
@@ -15,6 +16,9 @@ use crate::state::Node;
 use base::math::{Mat3, Vec3, Vec6, angular, linear, skew};
 use nalgebra::DMatrix;
 use std::array::from_fn;
+
+/// The number of loads by rigid accelerations.
+pub const RIGID_LOADS: usize = 12;
 
 /// Velocity and angular velocity of a node.
 type NodeVelocities<'v> = &'v dyn Fn(usize) -> [Vec3; 2];
@@ -109,7 +113,6 @@ impl InertiaIntegrals {
         let B = from_fn(|i| {
             // u·A u̇ with A = e~ᵀ is e·(u × u̇).
             let across = skew(&Vec3::ith(i, 1.0)).transpose();
-            let euler = |J: &Mat3| 0.5 * Mat3::from_diagonal_element(J.trace()) - J;
             of.form(shapes, &across, |J, psi, other| (euler(J) * psi.cross(other))[i])
         });
         InertiaIntegrals {
@@ -126,6 +129,31 @@ impl InertiaIntegrals {
 }
 
 impl ModalMass {
+    /// The inertia forces of rigid accelerations a + A Y about the mean of the interface. Three have a of size 1. A has the size 1 over the extent: three
+    /// antisymmetric ones turn the part, and six symmetric ones belong to spins. Six rows for each node.
+    pub fn rigid_loads(&self) -> DMatrix<f64> {
+        let extent = self.Y.iter().map(|Y| Y.norm()).fold(f64::MIN_POSITIVE, f64::max);
+        let mut loads = DMatrix::zeros(6 * self.Y.len(), RIGID_LOADS);
+        for (k, mut load) in loads.column_iter_mut().enumerate() {
+            let (a, A) = match k {
+                0..3 => (Vec3::ith(k, 1.0), Mat3::zeros()),
+                3..6 => (Vec3::zeros(), skew(&Vec3::ith(k - 3, 1.0 / extent))),
+                _ => {
+                    let (i, j, _) = COMPONENTS[k - 6];
+                    let of_pair = Mat3::from_fn(|a, b| if (a, b) == (i, j) || (a, b) == (j, i) { 1.0 } else { 0.0 });
+                    (Vec3::zeros(), of_pair / extent)
+                }
+            };
+            let load = load.as_mut_slice();
+            self.masses.iter().for_each(|&(to, from, m)| super::add_three(load, 6 * to, &(m * (a + A * self.Y[from]))));
+            for NodalMass { node, J0 } in &self.rotary {
+                // Σ m r × A r.
+                super::add_three(load, 6 * node + 3, &(2.0 * axial(&(A * euler(J0)))));
+            }
+        }
+        loads
+    }
+
     /// Φᵀ M Φ.
     pub fn matrix(&self, shapes: &DMatrix<f64>) -> DMatrix<f64> {
         let size = shapes.ncols();
@@ -155,6 +183,11 @@ impl ModalMass {
         // Columns are the rows of the form.
         products(&product, shapes).as_slice().to_vec()
     }
+}
+
+/// ½ tr J − J: the integral of r rᵀ over the mass.
+fn euler(J: &Mat3) -> Mat3 {
+    0.5 * Mat3::from_diagonal_element(J.trace()) - J
 }
 
 /// Aᵀ B.
@@ -188,6 +221,11 @@ fn row(of: &[f64], k: usize, size: usize) -> &[f64] {
 }
 
 impl InertiaIntegrals {
+    /// The mass of the whole.
+    pub fn mass(&self) -> f64 {
+        self.mass
+    }
+
     /// s.
     fn first_moment(&self, q: &[f64]) -> Vec3 {
         self.s0 + product(&self.S, q)

@@ -16,7 +16,7 @@ mod second_order;
 mod vectors;
 
 pub use elastic::SuperelementBlock;
-pub use integrals::{InertiaIntegrals, ModalMass, NodalMass, products};
+pub use integrals::{InertiaIntegrals, ModalMass, NodalMass, RIGID_LOADS, products};
 pub use recovery::InnerNodes;
 pub use second_order::{Product, SecondOrder};
 pub use vectors::dot;
@@ -47,6 +47,11 @@ pub struct SuperelementData {
 }
 
 impl SuperelementData {
+    /// The number of amplitudes.
+    pub fn amplitudes(&self) -> usize {
+        self.nodes.len() - self.interface
+    }
+
     /// The number of degrees of freedom.
     pub fn size(&self) -> usize {
         5 * self.interface + self.nodes.len()

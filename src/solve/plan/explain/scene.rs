@@ -44,10 +44,15 @@ fn reduced(of: &Reduction, pieces: usize) -> String {
     let Some(made) = &of.made else { return title };
     let (interface, modes) = (6 * of.interface.len(), made.frequencies.len());
     let up_to = made.frequencies.last().map_or(String::new(), |last| format!(" up to {}", short(*last)));
+    let shapes = match made.inertia_shapes {
+        0 => String::new(),
+        1 => " and 1 static shape of inertia loads".to_owned(),
+        count => format!(" and {count} static shapes of inertia loads"),
+    };
     let next = made.next.map_or(String::new(), |next| format!("; the next mode has {}", short(next)));
     let linear = if made.matrices.second_order.is_some() { "" } else { "; no geometric stiffness" };
     format!(
-        "{title}: {interface} unknowns of the interface and {modes} modes{up_to}, in place of {}{next}{linear}",
+        "{title}: {interface} unknowns of the interface and {modes} modes{up_to}{shapes}, in place of {}{next}{linear}",
         interface + made.replaced
     )
 }
@@ -90,7 +95,10 @@ fn counts(model: &Model) -> String {
         let of_kind = model.parts.iter().filter(|part| part.kind() == kind && part.is_listed());
         (of_kind.map(Part::counted).sum(), kind.counted_as())
     });
-    let before = [(model.nodes.len(), ["node", "nodes"]), (model.bodies.len(), ["body", "bodies"])];
+    let before = [
+        (model.nodes.iter().filter(|node| !node.label.is_empty()).count(), ["node", "nodes"]),
+        (model.bodies.len(), ["body", "bodies"]),
+    ];
     let after = [
         (model.constraints.dependents.len(), ["dependent node", "dependent nodes"]),
         (model.constraints.joints.len(), ["joint", "joints"]),
