@@ -5,38 +5,31 @@
 
 use super::linearized::Linearized;
 use super::mode::EigenMode;
+use super::spinning_parts::spinning_parts;
 use crate::system::{ConsistentMass, dependents};
 use crate::tolerances::gyroscopic::{ORBIT, SYMMETRIC};
-use base::math::{Mat3, Mat6, Vec3, angular, linear, skew};
+use base::math::{Mat6, Vec3, angular, linear, skew};
 use std::collections::BTreeMap;
 
-/// The matrices of the bodies that spin.
+/// The rows and columns of two nodes.
+type Rows = [[Option<usize>; 6]; 2];
+
+/// The matrices of the bodies and parts that spin.
 pub struct Gyroscopic {
-    /// The rows of the rotations of a node, with the matrices of θ̇ and of θ.
-    blocks: Vec<([Option<usize>; 3], Mat3, Mat3)>,
-    /// The rows and columns of two nodes, with the matrix of rates: Coriolis forces.
-    coriolis: Vec<([[Option<usize>; 6]; 2], Mat6)>,
+    /// The matrices of rates and of motions between two nodes.
+    blocks: Vec<(Rows, [Mat6; 2])>,
     /// The sum of the angular momenta, whose direction is that of the spin.
     momentum: Vec3,
     /// Neglected terms, in words.
     pub warnings: Vec<String>,
 }
 
-/// The warning of a superelement that spins, whose gyroscopic terms are omitted.
-pub fn of_superelements(at: &Linearized) -> Option<String> {
-    let node = at.system.floating_nodes().find(|&node| at.spins(&at.state.nodes[node].omega))?;
-    Some(format!(
-        "`{}` spins with a superelement, and modes omit its gyroscopic and centrifugal forces. Replace it by beams and bodies, or compute the \
-         motion with `kind = \"dynamic\"`",
-        at.model.nodes[node].label
-    ))
-}
-
 impl Gyroscopic {
     /// The matrices of the bodies that spin in a state.
     pub fn of(at: &Linearized) -> Gyroscopic {
-        let mut gyroscopic =
-            Gyroscopic { blocks: Vec::new(), coriolis: coriolis(at), momentum: Vec3::zeros(), warnings: Vec::new() };
+        let mut gyroscopic = Gyroscopic { blocks: Vec::new(), momentum: Vec3::zeros(), warnings: Vec::new() };
+        let mut sums = Sums::new(at);
+        sums.add_coriolis(at);
         let links = &at.system.rigid_links;
         for inertia in &at.system.inertias {
             let mut root = inertia.node;
@@ -72,17 +65,27 @@ impl Gyroscopic {
                     name()
                 ));
             }
-            let rows = std::array::from_fn(|i| at.plan.dofs.row(root, 3 + i));
-            gyroscopic.blocks.push((rows, varies - skew(&momentum), -skew(&omega.cross(&momentum))));
+            let of_turns = [varies - skew(&momentum), -skew(&omega.cross(&momentum))].map(|of_turns| {
+                let mut of = Mat6::zeros();
+                of.fixed_view_mut::<3, 3>(3, 3).copy_from(&of_turns);
+                of
+            });
+            sums.add([root; 2], &of_turns);
         }
-        gyroscopic.warnings.extend(of_superelements(at));
+        for part in spinning_parts(at) {
+            gyroscopic.momentum += part.momentum;
+            part.visit(&mut |ends, of| sums.add(ends, of));
+            gyroscopic.warnings.extend(part.warning);
+        }
+        let rows = |node: usize| std::array::from_fn(|dof| at.plan.dofs.row(node, dof));
+        gyroscopic.blocks = sums.of.into_iter().map(|(ends, of)| (ends.map(rows), of)).collect();
         gyroscopic.warnings.dedup();
         gyroscopic
     }
 
     /// True where anything spins.
     pub fn acts(&self) -> bool {
-        !self.blocks.is_empty() || !self.coriolis.is_empty()
+        !self.blocks.is_empty()
     }
 
     /// The sense of the orbits of a mode, weighted by mass and inertia, as in [`EigenMode::whirl`].
@@ -107,6 +110,11 @@ impl Gyroscopic {
                 orbit([0.5 * (J.trace() - polar), polar], angular(u), angular(ahead));
             }
         }
+        for part in &at.model.reductions {
+            let nodes = part.interface.iter().chain(&part.inner);
+            let mass = part.made.as_ref().map_or(0.0, |made| made.mass()) / nodes.clone().count() as f64;
+            nodes.for_each(|&node| orbit([mass; 2], linear(&mode.shape[node]), linear(&mode.quadrature[node])));
+        }
         for (node, _, mass) in at.system.consistent.iter().flat_map(ConsistentMass::pairs) {
             orbit([mass; 2], linear(&mode.shape[node]), linear(&mode.quadrature[node]));
         }
@@ -124,20 +132,11 @@ impl Gyroscopic {
 
     /// Hands the entries of both matrices, of rates and of turns, to `visit`.
     pub fn entries(&self, visit: &mut dyn FnMut(usize, usize, [f64; 2])) {
-        for (rows, rate, turn) in &self.blocks {
-            for (i, row) in rows.iter().enumerate() {
-                for (j, column) in rows.iter().enumerate() {
-                    if let (Some(row), Some(column)) = (row, column) {
-                        visit(*row, *column, [rate[(i, j)], turn[(i, j)]]);
-                    }
-                }
-            }
-        }
-        for ([rows, columns], rate) in &self.coriolis {
+        for ([rows, columns], [rate, turn]) in &self.blocks {
             for (i, row) in rows.iter().enumerate() {
                 for (j, column) in columns.iter().enumerate() {
                     if let (Some(row), Some(column)) = (row, column) {
-                        visit(*row, *column, [rate[(i, j)], 0.0]);
+                        visit(*row, *column, [rate[(i, j)], turn[(i, j)]]);
                     }
                 }
             }
@@ -145,26 +144,38 @@ impl Gyroscopic {
     }
 }
 
-/// The Coriolis matrices of all masses under centrifugal loads, for the independent nodes.
-fn coriolis(at: &Linearized) -> Vec<([[Option<usize>; 6]; 2], Mat6)> {
-    let (nodes, links) = (&at.state.nodes, &at.system.rigid_links);
-    let turning = || at.system.centrifugal().iter().zip(&at.loading.squares).filter(|(_, square)| **square > 0.0);
-    if turning().next().is_none() {
-        return Vec::new();
+/// Matrices of rates and of motions between the independent nodes, by pairs of these.
+struct Sums {
+    independent: Vec<Vec<usize>>,
+    projections: Vec<Vec<Mat6>>,
+    of: BTreeMap<[usize; 2], [Mat6; 2]>,
+}
+
+impl Sums {
+    fn new(at: &Linearized) -> Sums {
+        let (nodes, links) = (&at.state.nodes, &at.system.rigid_links);
+        let independent = dependents::independent_nodes(links, nodes.len());
+        let projections = dependents::projections(links, nodes, &independent);
+        Sums { independent, projections, of: BTreeMap::new() }
     }
-    let independent = dependents::independent_nodes(links, nodes.len());
-    let projections = dependents::projections(links, nodes, &independent);
-    let mut sums: BTreeMap<[usize; 2], Mat6> = BTreeMap::new();
-    for (load, square) in turning() {
-        load.coriolis(square.sqrt(), nodes, &mut |ends, G: &Mat6| {
-            let [left, right] = ends.map(|end| independent[end].iter().zip(&projections[end]));
-            for (row, P) in left {
-                for (column, Q) in right.clone() {
-                    *sums.entry([*row, *column]).or_insert_with(Mat6::zeros) += P.transpose() * G * Q;
-                }
+
+    /// Adds the matrices between two nodes.
+    fn add(&mut self, ends: [usize; 2], of: &[Mat6; 2]) {
+        let [left, right] = ends.map(|end| self.independent[end].iter().zip(&self.projections[end]));
+        for (row, P) in left {
+            for (column, Q) in right.clone() {
+                let sums = self.of.entry([*row, *column]).or_insert_with(|| [Mat6::zeros(); 2]);
+                sums.iter_mut().zip(of).for_each(|(sum, of)| *sum += P.transpose() * of * Q);
             }
-        });
+        }
     }
-    let rows = |node: usize| std::array::from_fn(|dof| at.plan.dofs.row(node, dof));
-    sums.into_iter().map(|(ends, G)| (ends.map(rows), G)).collect()
+
+    /// Adds the Coriolis matrices of all masses under centrifugal loads.
+    fn add_coriolis(&mut self, at: &Linearized) {
+        for (load, square) in
+            at.system.centrifugal().iter().zip(&at.loading.squares).filter(|(_, square)| **square > 0.0)
+        {
+            load.coriolis(square.sqrt(), &at.state.nodes, &mut |ends, G: &Mat6| self.add(ends, &[*G, Mat6::zeros()]));
+        }
+    }
 }

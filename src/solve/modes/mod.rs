@@ -25,6 +25,7 @@ mod shape;
 mod shares;
 mod speed_modes;
 mod speeds;
+mod spinning_parts;
 mod steady;
 
 pub use damping_modes::find_damped;

@@ -6,12 +6,12 @@
 //! with new vectors.
 
 use super::fault::ModesFault;
-use super::gyroscopic::of_superelements;
 use super::linearized::Linearized;
 use super::mode::ModeKind;
 use super::mode::{EigenMode, Modes};
 use super::pencil::Pencil;
 use super::shape::Shapes;
+use super::spinning_parts::first_spinning;
 use crate::system::assembly::Assembly;
 use crate::tolerances::gyroscopic::ACROSS;
 use crate::tolerances::modal::{
@@ -144,12 +144,12 @@ pub(super) fn left_out(at: &Linearized) -> Vec<String> {
                 .to_owned(),
         );
     }
-    warnings.extend(of_superelements(at));
     let spins = |node: usize| at.spins(&at.model.nodes[node].omega);
-    if let Some(body) = at.system.inertias.iter().find(|inertia| inertia.rotary && spins(inertia.node)) {
+    let body = at.system.inertias.iter().find(|inertia| inertia.rotary && spins(inertia.node));
+    if let Some(node) = body.map(|body| body.node).or_else(|| first_spinning(at)) {
         warnings.push(format!(
             "`{}` spins, and modes omit its gyroscopic moments. Give `damped = true`, which includes them",
-            at.model.nodes[body.node].label
+            at.model.nodes[node].label
         ));
     }
     warnings

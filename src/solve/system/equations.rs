@@ -592,7 +592,7 @@ impl System {
     }
 
     /// The masses of superelements.
-    pub(super) fn floating(&self) -> &[FloatingMass] {
+    pub fn floating(&self) -> &[FloatingMass] {
         &self.floating
     }
 

@@ -4,11 +4,14 @@ use super::mass_damping::MassDamping;
 use super::parts::assembled;
 use super::reduced;
 use super::tangent_weights::TangentWeights;
+use crate::tolerances::gyroscopic::STEP;
+use base::math::rotation::exp;
 use base::math::{Vec3, Vec6};
 use mechanics::elements::Force;
 use mechanics::elements::superelement::{FloatingElement, FloatingWeights, InertiaIntegrals};
 use mechanics::state::Node;
 use model::{Model, Part, Reduction};
+use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
 /// The mass of a superelement.
@@ -84,6 +87,54 @@ impl FloatingMass {
             None => self.element.subtract_mass(nodes, motions, factor, F),
             Some(own) => own.subtract_product(&self.element, nodes, motions, factor, F),
         }
+    }
+
+    /// The derivatives of inertia forces by the rates of small motions, and by these, in a steady spin. `turn` gives the rates of the amplitudes
+    /// that lie still in space, per amplitude: they turn against the part. A column for each of six directions of each of its nodes.
+    pub fn spin_derivatives(&self, nodes: &[Node], turn: &DMatrix<f64>) -> [DMatrix<f64>; 2] {
+        let own = self.element.nodes();
+        let (interface, size) = (own.len() - turn.nrows(), 6 * own.len());
+        let steady: Vec<Node> =
+            nodes.iter().map(|node| Node { a: Vec3::zeros(), alpha: Vec3::zeros(), ..*node }).collect();
+        let length = own[..interface].iter().map(|&node| (nodes[node].x - nodes[own[0]].x).norm()).fold(0.0, f64::max);
+        let spin = nodes[own[0]].omega.norm();
+        let square = turn * turn;
+        let forces = |column: usize, [x, rate]: [f64; 2]| {
+            let (mut nodes, (i, dof)) = (steady.clone(), (column / 6, column % 6));
+            let node = &mut nodes[own[i]];
+            match (i < interface, dof) {
+                (true, 0..3) => (node.x[dof], node.v[dof]) = (node.x[dof] + x, node.v[dof] + rate),
+                (true, _) => {
+                    let axis = Vec3::ith(dof - 3, 1.0);
+                    let turned = axis.cross(&node.omega);
+                    node.rotation = exp(&(x * axis)) * node.rotation;
+                    (node.omega, node.alpha) = (node.omega + rate * axis + x * turned, rate * turned);
+                }
+                _ => {
+                    let k = i - interface;
+                    node.x.x += x;
+                    node.v.x += rate;
+                    for (row, &other) in own[interface..].iter().enumerate() {
+                        nodes[other].v.x += x * turn[(row, k)];
+                        nodes[other].a.x += x * square[(row, k)] + 2.0 * rate * turn[(row, k)];
+                    }
+                }
+            }
+            let mut F = vec![[0.0; 6]; nodes.len()];
+            self.add_forces(&nodes, &Vec3::zeros(), true, None, &mut F);
+            DVector::from_iterator(size, own.iter().flat_map(|&node| F[node]))
+        };
+        let derivative = |step: [f64; 2]| {
+            let columns: Vec<DVector<f64>> = (0..size)
+                .map(|k| match k / 6 >= interface && k % 6 > 0 {
+                    true => DVector::zeros(size),
+                    false => (forces(k, step.map(|step| -step)) - forces(k, step)) / (2.0 * (step[0] + step[1])),
+                })
+                .collect();
+            DMatrix::from_columns(&columns)
+        };
+        // Forces are products of two rates, whose differences are exact.
+        [derivative([0.0, spin]), derivative([STEP * if length > 0.0 { length.min(1.0) } else { 1.0 }, 0.0])]
     }
 
     /// Kinetic energy, linear momentum, and angular momentum about the origin.

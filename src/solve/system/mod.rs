@@ -64,6 +64,7 @@ pub use contacts::{ContactState, ContactTouch, law_of, open_gap};
 pub use dofs::{DofMap, NodeRows};
 pub use equations::{Forces, System};
 pub use excitation::{Excitation, Prescribed, between};
+pub use floating::FloatingMass;
 pub use group::Group;
 pub use inertia::{ConsistentMass, Inertia};
 pub use joints::JointState;
