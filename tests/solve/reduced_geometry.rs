@@ -132,6 +132,41 @@ fn pieces_are_beams_one_by_one() {
     assert!(off < 1e-6, "{off:e} {pieces:?} {beams:?}");
 }
 
+/// Pieces follow a path with a corner, graded elements and stations of a taper, and stages that hold other nodes share their ends.
+#[test]
+fn pieces_of_graded_and_tapered_beams_in_stages() {
+    let material = BEAM.split("[sections.bar]").next().unwrap_or_default();
+    let rows = |key: &str| -> Vec<Vec<f64>> {
+        let text = format!(
+            "{material}[sections.thick]\nshape = \"rectangle\"\nheight = 0.03\nwidth = 0.02\n[sections.thin]\nshape = \"rectangle\"\nheight = 0.01\nwidth = 0.02\n\
+             [points]\na = [0.0, 0.0, 0.0]\nm = [0.5, 0.0, 0.0]\nb = [1.0, 0.0, 0.2]\n[[beams]]\nname = \"arm\"\npath = [\"a\", \"m\", \"b\"]\n\
+             elements = 5\ngrading = 0.3\nmaterial = \"steel\"\norientation = [0.0, 1.0, 0.0]\n{key}\
+             stations = [{{ at = 0.0, section = \"thick\" }}, {{ at = 1.0, section = \"thin\" }}]\n[[supports]]\nat = \"a\"\nfix = \"all\"\n\
+             [[supports]]\nat = \"m\"\nfix = [\"uy\"]\nstages = [\"hold\"]\n[[loads]]\nat = \"b\"\nforce = [0.01, 0.2, -0.3]\nstages = [\"bend\"]\n\
+             [[stages]]\nname = \"bend\"\nkind = \"static\"\nduration = 1.0\ntime_step = 1.0\n\
+             [[stages]]\nname = \"hold\"\nkind = \"static\"\nduration = 1.0\ntime_step = 1.0\n"
+        );
+        let mut rows = Vec::new();
+        run_source(&Source::new("deck.toml", text, &[]), &mut |frame| {
+            let nodes = frame.state.nodes.iter().zip(&frame.model.nodes).filter(|(_, node)| node.named);
+            rows.push(nodes.flat_map(|(now, node)| (now.x - node.x).iter().copied().collect::<Vec<f64>>()).collect());
+            Vec::new()
+        });
+        rows
+    };
+    let whole = rows("");
+    let moved = whole.iter().flatten().fold(0.0, |most: f64, u| most.max(u.abs()));
+    for key in ["reduced = 0\n", "reduced = { modes = 2, pieces = 4 }\n", "reduced = { modes = 0, pieces = 3 }\n"] {
+        let off = rows(key)
+            .iter()
+            .flatten()
+            .zip(whole.iter().flatten())
+            .fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+        // The square of a rotation of 1e-4, ten times.
+        assert!(moved > 1e-5 && off < 1e-6 * moved, "{key} {off:e} of {moved:e}");
+    }
+}
+
 /// A moment bends a cantilever: the error of its tip falls with the fourth power of the angle, and with the pieces.
 #[test]
 fn bending_shortens_a_reduced_beam() {
