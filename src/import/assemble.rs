@@ -1,7 +1,7 @@
 //! Builds the deck and its mesh from the content of the file: all families of tables, one after the other.
 
 use crate::build::Build;
-use crate::deck_text::{DeckTable, DeckText};
+use crate::deck_text::{DeckTable, DeckText, Names};
 use crate::flat_mesh::FlatMesh;
 use crate::importer::Importer;
 use crate::tied_nodes::TiedNodes;
@@ -38,6 +38,7 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
         deck: DeckText::default(),
         timeline,
         pieces: Vec::new(),
+        piece_of: HashMap::new(),
         groups: BTreeMap::new(),
         turned: HashMap::new(),
         body_of: HashMap::new(),
@@ -48,6 +49,7 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
         tied: TiedNodes::default(),
         has_gravity: false,
         amplitudes: HashMap::new(),
+        amplitude_names: Names::default(),
     };
     build.tied.axes = nodal_axes::of_nodes(&mut build);
     ties::merge(&mut build);

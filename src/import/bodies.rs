@@ -10,7 +10,7 @@ use crate::part_piece::PartPiece;
 use crate::scopes::NamedTarget;
 use crate::surfaces;
 use base::math::{Mat3, Vec3};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 /// The mass of a body without any, over that of all parts.
 const LIGHT: f64 = 1e-9;
@@ -67,8 +67,10 @@ pub fn bodies(build: &mut Build) {
         return;
     }
     let (masses, marks) = (point_masses(build), contacts::marks(build));
+    let turning = build.pieces.iter().filter(|piece| !piece.is_bar && !piece.is_rigid);
+    let turning = turning.flat_map(|piece| &piece.elements).flat_map(|element| &element.2).copied().collect();
     for card in cards {
-        body(build, &card, &masses, &marks);
+        body(build, &card, &masses, &marks, &turning);
     }
 }
 
@@ -142,7 +144,7 @@ fn faces(
     build.deck.add(if heaviest > 0.0 { table.number("density", heaviest) } else { table });
     let table = DeckTable::new("shells", card.line).text("group", &name).number("thickness", size);
     build.deck.add(table.text("material", &material));
-    build.pieces.push(PartPiece {
+    build.add_piece(PartPiece {
         name: name.clone(),
         names: vec![name.clone()],
         is_beam: false,
@@ -157,7 +159,13 @@ fn faces(
     (Some(name), nodes)
 }
 
-fn body(build: &mut Build, card: &RigidCard, masses: &BTreeMap<u64, PointMass>, marks: &[BTreeSet<usize>]) {
+fn body(
+    build: &mut Build,
+    card: &RigidCard,
+    masses: &BTreeMap<u64, PointMass>,
+    marks: &[BTreeSet<usize>],
+    turning: &HashSet<u64>,
+) {
     let Some(reference) = build.node(&card.reference) else { return };
     let BodyNodes { mut tied, pinned, own, parts } = nodes_of(build, card, marks);
     if let Some(target) = &card.rotations
@@ -175,7 +183,7 @@ fn body(build: &mut Build, card: &RigidCard, masses: &BTreeMap<u64, PointMass>, 
         false => table.names("parts", &parts),
     };
     build.deck.add(table);
-    say_rotations(build, card, &tied);
+    say_rotations(build, card, tied.iter().any(|node| turning.contains(node)));
     let is_all = card.degrees.is_empty();
     let whole: BTreeSet<u64> =
         if is_all { tied.iter().copied().chain([reference]).collect() } else { [reference].into() };
@@ -204,13 +212,8 @@ fn body(build: &mut Build, card: &RigidCard, masses: &BTreeMap<u64, PointMass>, 
 }
 
 /// Tells where CalculiX lets nodes of shells and beams turn in the body.
-fn say_rotations(build: &mut Build, card: &RigidCard, tied: &BTreeSet<u64>) {
-    if card.is_coupling || build.im.dialect != Some(Dialect::Calculix) {
-        return;
-    }
-    let turning = build.pieces.iter().filter(|piece| !piece.is_bar && !piece.is_rigid);
-    let mut nodes = turning.flat_map(|piece| &piece.elements).flat_map(|element| &element.2);
-    if nodes.any(|node| tied.contains(node)) {
+fn say_rotations(build: &mut Build, card: &RigidCard, turns: bool) {
+    if turns && !card.is_coupling && build.im.dialect == Some(Dialect::Calculix) {
         let how = "nodes of shells and beams turn with the body. CalculiX leaves their rotations free, as `dofs = \"translations\"` in \
                    [[attachments]] does";
         build.im.change(card.line, how);

@@ -1,6 +1,6 @@
 //! A deck under construction, and how lines of the file name nodes and elements.
 
-use crate::deck_text::DeckText;
+use crate::deck_text::{DeckText, Names};
 use crate::flat_mesh::FlatMesh;
 use crate::importer::Importer;
 use crate::part_piece::PartPiece;
@@ -19,8 +19,9 @@ pub struct Build<'b, 'a, 't> {
     pub deck: DeckText,
     /// Stages and their times.
     pub timeline: Timeline,
-    /// Beams and shells.
+    /// Beams and shells, and the index of that of each element.
     pub pieces: Vec<PartPiece>,
+    pub piece_of: HashMap<usize, usize>,
     /// Sets of nodes in the mesh, by their names in the deck.
     pub groups: BTreeMap<String, Vec<u64>>,
     /// The reference node of each rotation node of a body.
@@ -39,11 +40,18 @@ pub struct Build<'b, 'a, 't> {
     pub tied: TiedNodes,
     /// True where the deck has gravity.
     pub has_gravity: bool,
-    /// Amplitudes in the deck by their text.
+    /// Amplitudes in the deck by their content, and their names.
     pub amplitudes: HashMap<String, String>,
+    pub amplitude_names: Names,
 }
 
 impl Build<'_, '_, '_> {
+    /// Adds a part.
+    pub fn add_piece(&mut self, piece: PartPiece) {
+        self.piece_of.extend(piece.cells.iter().map(|cell| (*cell, self.pieces.len())));
+        self.pieces.push(piece);
+    }
+
     /// The nodes named by a line; refuses other names.
     pub fn nodes(&mut self, target: &NamedTarget) -> Vec<u64> {
         match self.mesh.node_ids(&self.im.scopes, target) {

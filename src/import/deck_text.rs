@@ -1,6 +1,6 @@
 //! The text of a deck: tables in the order of the reference, each below the lines of the file that it comes from.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 use std::fmt::Write;
 
 /// Tables in the order of the reference.
@@ -75,6 +75,11 @@ impl DeckTable {
         self
     }
 
+    /// Its keys and their values, whatever lines they come from.
+    pub fn content(&self) -> String {
+        format!("{:?}", self.keys)
+    }
+
     /// True where it has this key.
     pub fn has(&self, key: &str) -> bool {
         self.keys.iter().any(|(known, _)| known == key)
@@ -122,13 +127,35 @@ impl DeckTable {
 #[derive(Debug, Default)]
 pub struct DeckText {
     tables: Vec<DeckTable>,
-    taken: HashSet<String>,
+    names: Names,
+}
+
+/// Names that nothing else has, whatever their case.
+#[derive(Debug, Default)]
+pub struct Names {
+    /// Names in small letters, and the last number behind each.
+    taken: HashMap<String, usize>,
+}
+
+impl Names {
+    /// The wanted name, if that is free, else with a number behind it; it is taken then.
+    pub fn unique(&mut self, wanted: &str) -> String {
+        let mut name = wanted.to_owned();
+        while self.taken.contains_key(&name.to_lowercase()) {
+            let last = self.taken.entry(wanted.to_lowercase()).or_insert(1);
+            *last += 1;
+            name = format!("{wanted}_{last}");
+        }
+        self.taken.insert(name.to_lowercase(), 1);
+        name
+    }
 }
 
 impl DeckText {
     /// Adds a table; the keys of one that stands once join those before.
     pub fn add(&mut self, table: DeckTable) {
-        match self.tables.iter_mut().find(|known| known.kind == table.kind && SINGLE.contains(&table.kind)) {
+        let mut alike = self.tables.iter_mut().take(if SINGLE.contains(&table.kind) { usize::MAX } else { 0 });
+        match alike.find(|known| known.kind == table.kind) {
             Some(known) => {
                 known.lines.extend(table.lines);
                 known.keys.extend(table.keys);
@@ -146,7 +173,7 @@ impl DeckText {
 
     /// A name that nothing else in the deck has: the wanted one, if that is free, else with a word behind it.
     pub fn unique_or(&mut self, wanted: &str, word: &str) -> String {
-        match self.taken.contains(&wanted.to_lowercase()) {
+        match self.names.taken.contains_key(&wanted.to_lowercase()) {
             true => self.unique(&format!("{wanted}_{word}")),
             false => self.unique(wanted),
         }
@@ -154,14 +181,7 @@ impl DeckText {
 
     /// A name that nothing else in the deck has: the wanted one, if that is free, else with a number behind it.
     pub fn unique(&mut self, wanted: &str) -> String {
-        let wanted = if wanted.is_empty() { "unnamed" } else { wanted };
-        let mut name = wanted.to_owned();
-        let mut next = 2;
-        while !self.taken.insert(name.to_lowercase()) {
-            name = format!("{wanted}_{next}");
-            next += 1;
-        }
-        name
+        self.names.unique(if wanted.is_empty() { "unnamed" } else { wanted })
     }
 
     /// The text, below `head`; `source` tells the origin of a line.

@@ -2,6 +2,7 @@
 
 use crate::scopes::{Members, NOWHERE, NamedTarget, PlacedElement, Scopes};
 use base::math::Vec3;
+use std::cell::OnceCell;
 use std::collections::{BTreeSet, HashMap};
 
 /// All nodes and elements by numbers that are theirs alone.
@@ -17,6 +18,8 @@ pub struct FlatMesh {
     cell_at: HashMap<u64, usize>,
     /// The node that replaces a merged one.
     merged: HashMap<u64, u64>,
+    /// The largest extent; copies of nodes do not change it.
+    size: OnceCell<f64>,
 }
 
 impl FlatMesh {
@@ -122,13 +125,14 @@ impl FlatMesh {
 
     /// The largest extent of the mesh.
     pub fn size(&self) -> f64 {
-        let bound = |of: fn(f64, f64) -> f64, start: f64| {
-            self.nodes.iter().fold(Vec3::from_element(start), |b, (_, x)| b.zip_map(x, of))
-        };
-        if self.nodes.is_empty() {
-            1.0
-        } else {
-            (bound(f64::max, f64::MIN) - bound(f64::min, f64::MAX)).amax().max(1e-300)
-        }
+        *self.size.get_or_init(|| {
+            let bound = |of: fn(f64, f64) -> f64, start: f64| {
+                self.nodes.iter().fold(Vec3::from_element(start), |b, (_, x)| b.zip_map(x, of))
+            };
+            match self.nodes.is_empty() {
+                true => 1.0,
+                false => (bound(f64::max, f64::MIN) - bound(f64::min, f64::MAX)).amax().max(1e-300),
+            }
+        })
     }
 }

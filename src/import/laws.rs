@@ -194,18 +194,13 @@ impl Build<'_, '_, '_> {
 
     /// Adds an amplitude unless the deck has one like it; returns its name.
     pub fn amplitude(&mut self, name: &str, table: DeckTable) -> String {
-        let text = format!("{table:?}");
-        if let Some(known) = self.amplitudes.get(&text) {
+        let content = table.content();
+        if let Some(known) = self.amplitudes.get(&content) {
             return known.clone();
         }
-        let mut unique = name.to_owned();
-        let mut next = 2;
-        while self.amplitudes.values().any(|known| *known == unique) {
-            unique = format!("{name}_{next}");
-            next += 1;
-        }
+        let unique = self.amplitude_names.unique(name);
         self.deck.add(table.with_name(&unique));
-        self.amplitudes.insert(text, unique.clone());
+        self.amplitudes.insert(content, unique.clone());
         unique
     }
 }

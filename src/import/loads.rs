@@ -66,7 +66,7 @@ pub fn loads(build: &mut Build) {
         group.lines.extend(&one.lines);
         (group.six, group.law, group.is_follower) = (one.six, one.law, one.is_follower);
     }
-    let targets: Vec<NamedTarget> = lines.iter().map(|line| line.target.clone()).collect();
+    let targets = lines.into_iter().map(|line| (line.line, line.target)).collect();
     groups.into_values().for_each(|group| write(build, group, &targets));
 }
 
@@ -92,6 +92,14 @@ pub fn refuse_two_laws(build: &mut Build, all: impl Iterator<Item = (String, Giv
             build.im.refuse(given.line, "a load in the same place and direction has another amplitude in this step");
         }
     }
+}
+
+/// What each line names.
+pub type LineTargets = BTreeMap<usize, NamedTarget>;
+
+/// What these lines name.
+pub fn of_lines(lines: &BTreeSet<usize>, targets: &LineTargets) -> Vec<NamedTarget> {
+    lines.iter().filter_map(|line| targets.get(line).cloned()).collect()
 }
 
 /// Lines that give values.
@@ -157,10 +165,8 @@ fn given(build: &mut Build, line: &ForceLine) -> Vec<(ForceKey, GivenValue)> {
     given
 }
 
-fn write(build: &mut Build, group: AlikeForces, targets: &[NamedTarget]) {
-    let of_lines: Vec<NamedTarget> =
-        targets.iter().filter(|target| group.lines.contains(&target.line)).cloned().collect();
-    let names = build.names(&group.nodes, &of_lines, "loaded");
+fn write(build: &mut Build, group: AlikeForces, targets: &LineTargets) {
+    let names = build.names(&group.nodes, &of_lines(&group.lines, targets), "loaded");
     let mut table = DeckTable::new("loads", 0).with_lines(group.lines.iter().copied()).names("at", &names);
     for (key, part) in [("force", &group.six[..3]), ("moment", &group.six[3..])] {
         if part.iter().any(|x| *x != 0.0) {
@@ -207,11 +213,9 @@ pub fn velocities(build: &mut Build) {
         group.1.insert(node);
         group.2.extend(lines);
     }
-    let targets: Vec<NamedTarget> = all.into_iter().map(|(_, target, _, _)| target).collect();
+    let targets = all.into_iter().map(|(line, target, _, _)| (line, target)).collect();
     for (six, nodes, lines) in groups.into_values().filter(|(six, ..)| *six != [0.0; 6]) {
-        let of_lines: Vec<NamedTarget> =
-            targets.iter().filter(|target| lines.contains(&target.line)).cloned().collect();
-        let names = build.names(&nodes, &of_lines, "moving");
+        let names = build.names(&nodes, &of_lines(&lines, &targets), "moving");
         let mut table = DeckTable::new("initial", 0).with_lines(lines).names("at", &names);
         for (key, part) in [("velocity", &six[..3]), ("angular_velocity", &six[3..])] {
             if part.iter().any(|x| *x != 0.0) {

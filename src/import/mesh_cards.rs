@@ -69,16 +69,13 @@ fn element(im: &mut Importer, data: &Data, (kind, count): (usize, usize), offset
     let id = im.id(data, 0)? + offset;
     let mut nodes = Vec::with_capacity(count);
     for word in data.words[1..data.filled()].iter() {
-        match (word.whole(), im.node_of_instance(word)) {
-            (Some(node), _) => nodes.push(node + offset),
-            (None, Some(node)) => nodes.push(node),
-            // The end of a connector that is left open lies on the ground.
-            (None, None) if word.bytes.is_empty() => nodes.push(0),
-            (None, None) => {
-                im.refuse_at(word, "this must be the number of a node");
-                return None;
-            }
-        }
+        let found = word.whole().map(|node| node + offset).or_else(|| im.node_of_instance(word));
+        // The end of a connector that is left open lies on the ground.
+        let Some(node) = found.or(word.bytes.is_empty().then_some(0)) else {
+            im.refuse_at(word, "this must be the number of a node");
+            return None;
+        };
+        nodes.push(node);
     }
     let of = &im.scopes.types[kind];
     let fits = count == 0 || nodes.len() == count || of.takes_direction() && nodes.len() == count + 1;

@@ -2,7 +2,7 @@
 
 use crate::build::Build;
 use crate::contacts;
-use crate::deck_text::{DeckTable, inline, list, number, quoted, vector};
+use crate::deck_text::{DeckTable, Names, inline, list, number, quoted, vector};
 use crate::dialect::Dialect;
 use crate::element_types::ElementUse;
 use crate::file_content::{SectionCard, SectionOf, SectionValue};
@@ -14,6 +14,7 @@ use crate::pretension;
 use crate::scopes::{NamedTarget, PlacedElement};
 use crate::temperatures;
 use base::math::Vec3;
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// How far the middle node of a beam may lie off its straight line, over the length.
@@ -23,6 +24,9 @@ const ROUNDING: f64 = 1e-14;
 /// The sine of the least angle between a beam and its first axis.
 const PARALLEL: f64 = 1e-6;
 
+/// The names of sections in the deck by the index of their cards, and all of them.
+type SectionNames = (HashMap<usize, String>, Names);
+
 /// The differences that divide elements of one section into parts.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct PieceKey {
@@ -30,19 +34,22 @@ struct PieceKey {
     shape: u8,
     /// The first axis of a beam, or the thickness of a shell, as text.
     axis: String,
-    /// Loads and bodies that hold it.
-    marks: Vec<bool>,
+    /// Loads and bodies that hold it, in the order of a list of true and false for all of them.
+    marks: Vec<Reverse<usize>>,
 }
 
 /// Adds beams, bars and shells with their sections and materials.
 pub fn parts(build: &mut Build) {
     let section_of = assigned(build);
-    let marks = marks(build);
+    let mut marks_of: HashMap<usize, Vec<Reverse<usize>>> = HashMap::new();
+    for (mark, cells) in marks(build).into_iter().enumerate() {
+        cells.into_iter().for_each(|cell| marks_of.entry(cell).or_default().push(Reverse(mark)));
+    }
     let thicknesses = thicknesses(build);
     let mut pieces: BTreeMap<PieceKey, Vec<usize>> = BTreeMap::new();
     let mut bare: Option<(usize, u64)> = None;
-    for at in 0..build.mesh.cells.len() {
-        let cell = build.mesh.cells[at].clone();
+    let (all, sections) = (std::mem::take(&mut build.mesh.cells), build.im.sections.clone());
+    for (at, cell) in all.iter().enumerate() {
         let becomes = build.im.scopes.types[cell.kind].becomes;
         let is_part =
             matches!(becomes, ElementUse::StraightBeam | ElementUse::CurvedBeam | ElementUse::Truss | ElementUse::Face);
@@ -58,10 +65,10 @@ pub fn parts(build: &mut Build) {
             bare = bare.or(Some((cell.line, cell.id)));
             continue;
         };
-        let card = build.im.sections[section].clone();
-        let Some((shape, axis)) = shape_of(build, &cell, &card, becomes) else { continue };
+        let card = &sections[section];
+        let Some((shape, axis)) = shape_of(build, cell, card, becomes) else { continue };
         let axis = match &card.what {
-            SectionOf::Shell { thickness, .. } => match thickness.or_else(|| at_nodes(&thicknesses, &cell)) {
+            SectionOf::Shell { thickness, .. } => match thickness.or_else(|| at_nodes(&thicknesses, cell)) {
                 Some(thickness) => number(thickness),
                 None if cell.nodes.iter().all(|node| thicknesses.contains_key(node)) => String::new(),
                 None => {
@@ -71,9 +78,10 @@ pub fn parts(build: &mut Build) {
             },
             _ => vector(settled(axis).as_slice()),
         };
-        let marks = marks.iter().map(|cells| cells.contains(&at)).collect();
+        let marks = marks_of.remove(&at).unwrap_or_default();
         pieces.entry(PieceKey { section, shape, axis, marks }).or_default().push(at);
     }
+    build.mesh.cells = all;
     if let Some((line, id)) = bare.filter(|_| !build.im.is_incomplete()) {
         build.im.refuse(line, &format!("element {id} has no section"));
     }
@@ -138,13 +146,16 @@ fn marks(build: &mut Build) -> Vec<BTreeSet<usize>> {
     let found = targets.iter().filter_map(|target| build.mesh.cell_indices(&build.im.scopes, target));
     let mut marks: Vec<BTreeSet<usize>> = found.map(|cells| cells.into_iter().collect()).collect();
     marks.extend(contacts::marks(build));
-    for target in temperatures::targets(build.im).iter().filter(|_| build.im.is_heated()) {
+    let targets = if build.im.is_heated() { temperatures::targets(build.im) } else { Vec::new() };
+    let mut by_first: HashMap<u64, Vec<usize>> = HashMap::new();
+    for (at, cell) in build.mesh.cells.iter().enumerate().take(if targets.is_empty() { 0 } else { usize::MAX }) {
+        cell.nodes.first().map(|node| by_first.entry(*node).or_default().push(at));
+    }
+    for target in &targets {
         let nodes = build.mesh.node_ids(&build.im.scopes, target).unwrap_or_default();
         let nodes: BTreeSet<u64> = pretension::with_ends(build, nodes).into_iter().collect();
-        let cells = build.mesh.cells.iter().enumerate();
-        marks.push(
-            cells.filter(|(_, cell)| cell.nodes.iter().all(|node| nodes.contains(node))).map(|of| of.0).collect(),
-        );
+        let cells = nodes.iter().filter_map(|node| by_first.get(node)).flatten().copied();
+        marks.push(cells.filter(|at| build.mesh.cells[*at].nodes.iter().all(|node| nodes.contains(node))).collect());
     }
     marks
 }
@@ -154,7 +165,6 @@ fn marks(build: &mut Build) -> Vec<BTreeSet<usize>> {
 fn shape_of(build: &mut Build, cell: &PlacedElement, card: &SectionCard, becomes: ElementUse) -> Option<(u8, Vec3)> {
     let x = |at: usize| build.mesh.x(cell.nodes[at]);
     let count = build.im.scopes.types[cell.kind].nodes;
-    let name = build.im.scopes.types[cell.kind].name.clone();
     let fits = matches!(
         (&card.what, becomes),
         (SectionOf::Beam { .. }, ElementUse::StraightBeam | ElementUse::CurvedBeam)
@@ -162,10 +172,9 @@ fn shape_of(build: &mut Build, cell: &PlacedElement, card: &SectionCard, becomes
             | (SectionOf::Bar(_), ElementUse::Truss)
     );
     if !fits {
-        build.im.refuse(
-            card.line,
-            &format!("this section is not one of elements of type {name}, such as element {}", cell.id),
-        );
+        let name = &build.im.scopes.types[cell.kind].name;
+        let why = format!("this section is not one of elements of type {name}, such as element {}", cell.id);
+        build.im.refuse(card.line, &why);
         return None;
     }
     let SectionOf::Beam { n1, offset, keys } = &card.what else {
@@ -209,7 +218,7 @@ fn shape_of(build: &mut Build, cell: &PlacedElement, card: &SectionCard, becomes
 
 /// Writes the pieces.
 fn write(build: &mut Build, pieces: BTreeMap<PieceKey, Vec<usize>>, thicknesses: &HashMap<u64, f64>) {
-    let (mut materials, mut sections) = (HashMap::new(), HashMap::new());
+    let (mut materials, mut sections) = (HashMap::new(), SectionNames::default());
     let mut names: HashMap<usize, String> = HashMap::new();
     let mut next = build.mesh.last_cell() + 1;
     let rigid = rigid_cells(build);
@@ -265,7 +274,7 @@ fn write(build: &mut Build, pieces: BTreeMap<PieceKey, Vec<usize>>, thicknesses:
                 bars(build, &card, &mut piece, &material);
             }
         }
-        build.pieces.push(piece);
+        build.add_piece(piece);
     }
 }
 
@@ -340,7 +349,7 @@ fn beam(
     card: &SectionCard,
     (piece, key): (&mut PartPiece, &PieceKey),
     material: &str,
-    sections: &mut HashMap<usize, String>,
+    sections: &mut SectionNames,
 ) {
     let SectionOf::Beam { keys, .. } = &card.what else { return };
     let name = section(build, card, key.section, sections);
@@ -361,7 +370,7 @@ fn beams_beside(
     card: &SectionCard,
     (piece, key): (&mut PartPiece, &PieceKey),
     material: &str,
-    sections: &mut HashMap<usize, String>,
+    sections: &mut SectionNames,
 ) {
     let SectionOf::Beam { keys, offset, .. } = &card.what else { return };
     let section = section(build, card, key.section, sections);
@@ -419,17 +428,14 @@ fn sizes(piece: &mut PartPiece, keys: &[(&'static str, SectionValue)]) {
 }
 
 /// The name of the section of a card in the deck, which is added.
-fn section(build: &mut Build, card: &SectionCard, index: usize, sections: &mut HashMap<usize, String>) -> String {
+fn section(build: &mut Build, card: &SectionCard, index: usize, sections: &mut SectionNames) -> String {
     let SectionOf::Beam { keys, .. } = &card.what else { return String::new() };
     if card.orientation.is_some() {
         build.im.refuse(card.line, "ORIENTATION of a beam section is not read; give the first axis on the second line");
     }
-    let taken: Vec<String> = sections.values().map(|name| name.to_lowercase()).collect();
-    let name = sections.entry(index).or_insert_with(|| {
-        let wanted = &card.target.name;
-        let numbered = (2..).map(|next| format!("{wanted}_{next}"));
-        let mut names = std::iter::once(wanted.clone()).chain(numbered);
-        let name = names.find(|name| !taken.contains(&name.to_lowercase())).unwrap_or_default();
+    let (of_card, names) = sections;
+    let name = of_card.entry(index).or_insert_with(|| {
+        let name = names.unique(&card.target.name);
         let mut table = DeckTable::named("sections", &name, card.line);
         for (key, value) in keys {
             table = match value {

@@ -43,7 +43,9 @@ pub fn spread_loads(build: &mut Build) {
         sum.into_iter().collect()
     };
     let steps = &build.im.steps.list;
-    let lines: Vec<SpreadLine> = steps.iter().flat_map(|step| step.spread.clone()).collect();
+    // The last one stays, and stands first in the file.
+    let last_first = steps.iter().rev().flat_map(|step| step.spread.iter().rev());
+    let lines: BTreeMap<SpreadKey, SpreadLine> = last_first.map(|line| (key(line), line.clone())).collect();
     let all = histories(&build.timeline, steps, Vec::new(), |step| given(&step.spread), |step| step.new_spread);
     let own: Vec<_> = build
         .stages_with_own_loads()
@@ -55,14 +57,14 @@ pub fn spread_loads(build: &mut Build) {
     for (of, history) in all {
         let at = lines_of(&history);
         let law = build.law(&history, false);
-        if let Some(line) = lines.iter().find(|line| key(line) == of).cloned() {
-            one(build, &line, &law, (&at, &history));
+        if let Some(line) = lines.get(&of) {
+            one(build, line, &law, (&at, &history));
         }
     }
     for (stage, (of, given)) in own {
         let law = build.law_in(&stage, &given);
-        if let Some(line) = lines.iter().find(|line| key(line) == of).cloned() {
-            one(build, &line, &law, (&[given.line], &[]));
+        if let Some(line) = lines.get(&of) {
+            one(build, line, &law, (&[given.line], &[]));
         }
     }
 }
@@ -185,7 +187,9 @@ fn pressure(build: &Build, table: DeckTable, value: f64) -> DeckTable {
 /// Parts that lie in a set of elements.
 fn pieces(build: &mut Build, target: &NamedTarget, line: usize) -> Vec<PartPiece> {
     let cells: BTreeSet<usize> = build.cells(&NamedTarget { line, ..target.clone() }).into_iter().collect();
-    let inside: Vec<PartPiece> = build.pieces.iter().filter(|piece| piece.cells.is_subset(&cells)).cloned().collect();
+    let touched: BTreeSet<usize> = cells.iter().filter_map(|cell| build.piece_of.get(cell).copied()).collect();
+    let touched = touched.into_iter().map(|at| &build.pieces[at]);
+    let inside: Vec<PartPiece> = touched.filter(|piece| piece.cells.is_subset(&cells)).cloned().collect();
     if inside.is_empty() && !cells.is_empty() && !build.im.is_incomplete() {
         build.im.refuse(line, "this load acts on elements that are no beams, bars or shells of the deck");
     }

@@ -4,8 +4,8 @@ use crate::bodies::DEGREES;
 use crate::build::Build;
 use crate::deck_text::{DeckTable, inline, list, number, quoted, vector};
 use crate::file_content::SupportLine;
+use crate::loads::{LineTargets, of_lines};
 use crate::pretension;
-use crate::scopes::NamedTarget;
 use crate::timeline::{GivenValue, InStep, histories};
 use base::math::Mat3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -74,7 +74,7 @@ pub fn supports(build: &mut Build) {
         group.nodes.insert(node);
         group.lines.extend(alike.lines);
     }
-    let targets: Vec<NamedTarget> = lines.iter().map(|line| line.target.clone()).collect();
+    let targets = lines.into_iter().map(|line| (line.line, line.target)).collect();
     for group in groups.into_values() {
         write(build, group, &targets);
     }
@@ -206,7 +206,7 @@ fn add_rotations(build: &mut Build, of_node: &mut BTreeMap<u64, Alike>) {
 }
 
 /// Writes the supports of nodes that are held alike: a table for each choice of stages.
-fn write(build: &mut Build, group: Alike, targets: &[NamedTarget]) {
+fn write(build: &mut Build, group: Alike, targets: &LineTargets) {
     let mut seen: Vec<Option<Vec<String>>> = Vec::new();
     for (_, stages) in group.held.iter().flatten() {
         if !seen.contains(stages) {
@@ -216,9 +216,7 @@ fn write(build: &mut Build, group: Alike, targets: &[NamedTarget]) {
     if seen.is_empty() {
         return;
     }
-    let of_lines: Vec<NamedTarget> =
-        targets.iter().filter(|target| group.lines.contains(&target.line)).cloned().collect();
-    let names = build.names(&group.nodes, &of_lines, "held");
+    let names = build.names(&group.nodes, &of_lines(&group.lines, targets), "held");
     for stages in seen {
         let mut table = DeckTable::new("supports", 0).with_lines(group.lines.iter().copied()).names("at", &names);
         let here = |dof: &usize| group.held[*dof].as_ref().filter(|(_, at)| *at == stages).map(|(held, _)| held);

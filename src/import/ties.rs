@@ -169,6 +169,13 @@ pub fn joints(build: &mut Build) {
         };
         let nodes: Vec<u64> = card.nodes.iter().filter_map(|target| build.node(target)).collect();
         if let [a, b] = nodes[..]
+            && kind == "spherical"
+            && (build.mesh.x(a) - build.mesh.x(b)).norm() > COINCIDENT * build.mesh.size()
+        {
+            // The ends of a joint lie at one place; nodes apart have the same displacements.
+            let alike = |dof: usize| NodalEquation { line: card.line, terms: vec![(a, dof, 1.0), (b, dof, -1.0)] };
+            build.tied.equations.extend((0..3).map(alike));
+        } else if let [a, b] = nodes[..]
             && !(kind == "distance" && joints::refuse_one_place(build, card.line, [a, b]))
         {
             add(build, (kind, &card.kind.to_lowercase()), (a, b), card.line, None);

@@ -47,7 +47,7 @@ impl Faults<'_> {
 
     /// An error at a field of a line, or at the line where the field cannot be told.
     fn in_field(&self, line: usize, field: usize, text: String) -> Diagnostic {
-        let bytes = self.text.bytes.split(|&byte| byte == b'\n').nth(line - 1).unwrap_or_default().trim_ascii_end();
+        let bytes = self.text.line_of(line).trim_ascii_end();
         // In a line with quotes, commas do not always end fields.
         let word = TextLine { bytes, number: line }.fields().nth(field).filter(|_| !bytes.contains(&b'"'));
         match word {

@@ -3,6 +3,7 @@
 use crate::diagnostic::{Diagnostic, Excerpt};
 use crate::math::LARGEST_LENGTH;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// An error in the file.
 pub type Fault = Box<Diagnostic>;
@@ -19,6 +20,8 @@ pub struct Text<'t> {
     next: usize,
     /// The number of the last line read.
     line: usize,
+    /// The places in `bytes` behind the ends of all lines, from the first message on.
+    ends: OnceLock<Vec<usize>>,
 }
 
 /// Lines in a row that come from one file.
@@ -55,7 +58,8 @@ pub struct Word<'t> {
 impl<'t> Text<'t> {
     /// The text from its first line, without a byte order mark.
     pub fn new(path: &'t str, bytes: &'t [u8]) -> Self {
-        Text { path, bytes: bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes), pieces: &[], next: 0, line: 0 }
+        let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+        Text { path, bytes, pieces: &[], next: 0, line: 0, ends: OnceLock::new() }
     }
 
     /// The text with lines of several files.
@@ -65,13 +69,24 @@ impl<'t> Text<'t> {
 
     /// Path of the file of a line, and the line number in it.
     pub fn origin(&self, line: usize) -> (&'t str, usize) {
-        let piece = self.pieces.iter().rfind(|piece| piece.first <= line);
+        let piece = self.pieces[..self.pieces.partition_point(|piece| piece.first <= line)].last();
         piece.map_or((self.path, line), |piece| (piece.path.as_str(), piece.line + line - piece.first))
+    }
+
+    /// The bytes of the line of a number, without its end; empty behind the last line.
+    pub fn line_of(&self, number: usize) -> &'t [u8] {
+        let ends = self.ends.get_or_init(|| {
+            let breaks = self.bytes.iter().enumerate().filter(|(_, byte)| **byte == b'\n');
+            breaks.map(|(at, _)| at + 1).chain([self.bytes.len() + 1]).collect()
+        });
+        let number = number.max(1);
+        let begin = if number == 1 { Some(0) } else { ends.get(number - 2).copied() };
+        begin.and_then(|begin| self.bytes.get(begin..ends.get(number - 1)? - 1)).unwrap_or_default()
     }
 
     /// A line as messages show it.
     pub fn excerpt(&self, line: usize) -> Excerpt {
-        let text = self.bytes.split(|&byte| byte == b'\n').nth(line.max(1) - 1).unwrap_or_default().trim_ascii_end();
+        let text = self.line_of(line).trim_ascii_end();
         let (path, line) = self.origin(line);
         Excerpt::new(path.to_owned(), line, text, 0..text.len())
     }
@@ -103,21 +118,20 @@ impl<'t> Text<'t> {
 
     /// An error at a line.
     pub fn fault(&self, message: impl Into<String>, line: usize) -> Fault {
-        let text = self.bytes.split(|&byte| byte == b'\n').nth(line.max(1) - 1).unwrap_or_default().trim_ascii_end();
+        let text = self.line_of(line).trim_ascii_end();
         let first = text.iter().position(|byte| !byte.is_ascii_whitespace()).unwrap_or(0);
         self.draw(message, line, text, first..text.len())
     }
 
     /// An error at a word.
     pub fn fault_at(&self, message: impl Into<String>, word: &Word) -> Fault {
-        let text = self.bytes.split(|&byte| byte == b'\n').nth(word.line.max(1) - 1).unwrap_or_default();
-        self.draw(message, word.line, text.trim_ascii_end(), word.column..word.column + word.bytes.len())
+        let text = self.line_of(word.line).trim_ascii_end();
+        self.draw(message, word.line, text, word.column..word.column + word.bytes.len())
     }
 
     /// An error at a number on a line: the last of that value, since the number of an element comes before those of its nodes.
     pub fn fault_on(&self, message: impl Into<String>, line: usize, number: Option<u64>) -> Fault {
-        let bytes = self.bytes.split(|&byte| byte == b'\n').nth(line.max(1) - 1).unwrap_or_default();
-        let content = TextLine { bytes, number: line };
+        let content = TextLine { bytes: self.line_of(line), number: line };
         let word = number.and_then(|number| {
             let in_words = content.words().filter(|word| word.whole() == Some(number)).last();
             in_words.or_else(|| content.fields().filter(|word| word.whole() == Some(number)).last())
