@@ -89,6 +89,11 @@ fn has_extension(path: &Path, wanted: &str) -> bool {
 /// [`Exit::InputOutput`] where a file cannot be read or written, [`Exit::Usage`] where one exists, [`Exit::DeckInvalid`] where something is
 /// refused; the reason has been shown.
 pub fn import(args: &ImportArgs) -> Result<PathBuf, Exit> {
+    write_files(args, true)
+}
+
+/// Imports a file; with `checks`, makes sure that the deck can be run, which a run does by itself.
+fn write_files(args: &ImportArgs, checks: bool) -> Result<PathBuf, Exit> {
     let stem = args.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let folder = args.output.clone().unwrap_or_default();
     let names = [format!("{stem}.toml"), format!("{stem}.mesh.inp"), format!("{stem}.import.csv")];
@@ -130,7 +135,9 @@ pub fn import(args: &ImportArgs) -> Result<PathBuf, Exit> {
         ))?;
         return Err(Exit::DeckInvalid);
     }
-    check(&paths)?;
+    if checks {
+        check(&paths[0])?;
+    }
     print(&format!("{}\n{unread}written: {}\n", summary(args, &imported.verdicts), written.join(", ")))?;
     Ok(paths[0].clone())
 }
@@ -144,7 +151,7 @@ pub fn import_and_run(args: RunArgs) -> Result<(), Exit> {
     if !args.resume {
         require_free(&folder, args.overwrite)?;
     }
-    let deck = import(&ImportArgs {
+    let files = ImportArgs {
         file: args.deck.clone(),
         output: Some(folder.clone()),
         from: args.from,
@@ -153,7 +160,8 @@ pub fn import_and_run(args: RunArgs) -> Result<(), Exit> {
         units: None,
         check: false,
         force: true,
-    })?;
+    };
+    let deck = write_files(&files, false)?;
     let overwrite = !args.resume;
     run(&RunArgs { deck, output: Some(folder), overwrite, ..args })
 }
@@ -271,21 +279,11 @@ fn write(path: &Path, text: &str) -> Result<(), Exit> {
     })
 }
 
-/// Makes sure that the deck can be run. A deck with errors is a fault of this program; a scene that cannot be computed is one of the file.
-fn check(paths: &[PathBuf; 3]) -> Result<(), Exit> {
-    let mut loaded = load(&paths[0], &[], Vec::new()).map_err(|exit| match exit {
-        Exit::DeckInvalid => {
-            complain("the deck that was written has errors: a fault of rdsolve import");
-            Exit::Internal
-        }
-        exit => exit,
-    })?;
-    if let Err(exit) = plan(&mut loaded, 1) {
-        for path in paths {
-            // What cannot be removed is replaced the next time.
-            let _ = std::fs::remove_file(path);
-        }
-        return Err(exit);
+/// Makes sure that the deck can be run. One with values that no deck has stays, for messages show its lines, below those of the file.
+fn check(deck: &Path) -> Result<(), Exit> {
+    let checked = load(deck, &[], Vec::new()).and_then(|mut loaded| plan(&mut loaded, 1));
+    if checked.is_err() {
+        say(&format!("  help: comments above the tables of `{}` name their lines in the file", deck.display()));
     }
-    Ok(())
+    checked.map(drop)
 }

@@ -172,8 +172,8 @@ fn joint(
             );
             continue;
         }
-        if behavior.stops[component].is_some() {
-            build.im.refuse(section.line, "stops of connectors are rigid, those of rdsolve have a stiffness: give the joint `limits` and `limit_stiffness`");
+        if let Some(limits) = behavior.stops[component] {
+            table = stops(build, section, joint, table, (component, limits, [a, b]));
         }
         if joint.word == "cylindrical" {
             table = table.text("coordinate", if component == 0 { "distance" } else { "angle" });
@@ -182,6 +182,32 @@ fn joint(
         table = damping.map_or(table.clone(), |damping| table.number("damping", damping));
     }
     Some(drives(build, section, joint, table, [a, b]))
+}
+
+/// Adds stops, which are stiff springs. Positions along an axis count from the first node in the file, coordinates from t = 0 in the deck.
+fn stops(
+    build: &mut Build,
+    section: &ConnectorSection,
+    joint: &JointOf,
+    table: DeckTable,
+    (component, limits, [a, b]): (usize, [f64; 2], [u64; 2]),
+) -> DeckTable {
+    let (size, [first, _]) = (build.mesh.size(), axes(build, section));
+    let stiffness = build.rigid_stiffness() * if component > 2 { size * size } else { 1.0 };
+    let start = if component > 2 { 0.0 } else { (build.mesh.x(b) - build.mesh.x(a)).dot(&first) };
+    let [low, high] = limits.map(|limit| limit - start);
+    if !["revolute", "prismatic", "cylindrical", "in-line"].contains(&joint.word) || stiffness == 0.0 {
+        build.im.refuse(
+            section.line,
+            "stops are translated of HINGE, TRANSLATOR, CYLINDRICAL and SLOT beside elastic parts",
+        );
+    } else if low > 0.0 || high < 0.0 {
+        build.im.refuse(section.line, "this connector begins beyond its stops");
+    } else {
+        build.im.change(section.line, &format!("a stop is a spring of stiffness {stiffness:e}, not rigid"));
+    }
+    let limits = if joint.is_turned { [-high, -low] } else { [low, high] };
+    table.numbers("limits", &limits).number("limit_stiffness", stiffness)
 }
 
 /// Adds motions and loads of the steps.

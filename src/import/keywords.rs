@@ -323,7 +323,7 @@ pub const KEYWORDS: &[KeywordRow] = &[
 
 /// The row of a keyword, by its name without blanks.
 pub fn row(key: &str) -> Option<&'static KeywordRow> {
-    KEYWORDS.iter().find(|row| row.word.replace(' ', "") == key)
+    KEYWORDS.iter().find(|row| row.word.bytes().filter(|byte| *byte != b' ').eq(key.bytes()))
 }
 
 /// The table of keywords as a page: what becomes of each.

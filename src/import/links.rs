@@ -71,6 +71,12 @@ pub fn links(build: &mut Build) {
 }
 
 impl Build<'_, '_, '_> {
+    /// A force per length that bends the model little before it: ten times the greatest modulus times the size of the mesh.
+    pub fn rigid_stiffness(&self) -> f64 {
+        let elastic = self.im.materials.list.iter().filter_map(|material| material.elastic);
+        10.0 * elastic.map(|elastic| elastic[0]).fold(0.0, f64::max) * self.mesh.size()
+    }
+
     /// The end of a link or a joint at a node; 0 is the ground beside the other end.
     pub fn end(&self, node: u64, other: u64) -> String {
         match (node, self.body_of.get(&node)) {
@@ -181,15 +187,7 @@ fn gap(build: &mut Build, card: &PropertyCard, nodes: &[u64], table: DeckTable) 
     let of = |at: usize| row.get(at).copied().unwrap_or(0.0);
     let direction = Vec3::new(of(1), of(2), of(3));
     let given = row.get(5).copied().filter(|stiffness| *stiffness > 0.0);
-    let modulus = build
-        .im
-        .materials
-        .list
-        .iter()
-        .filter_map(|material| material.elastic)
-        .map(|elastic| elastic[0])
-        .fold(0.0, f64::max);
-    let stiffness = given.unwrap_or(10.0 * modulus * build.mesh.size());
+    let stiffness = given.unwrap_or(build.rigid_stiffness());
     if stiffness <= 0.0 || of(0) < 0.0 {
         build.im.refuse(card.line, "a gap needs a stiffness and a clearance of 0 or more in rdsolve");
         return None;

@@ -5,6 +5,7 @@ mod command;
 mod constraints;
 mod dresses;
 mod keywords;
+mod mapping;
 mod mesh_makers;
 mod model_changes;
 mod pretension;

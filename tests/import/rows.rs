@@ -115,17 +115,6 @@ fn sections_of_beams() {
 }
 
 #[test]
-fn general_sections() {
-    let keyword = "*BEAM SECTION, ELSET=rod, MATERIAL=m, SECTION=RECT\n0.1, 0.2\n0., 1., 0.\n";
-    let general = "*BEAM GENERAL SECTION, ELSET=rod, SECTION=GENERAL, DENSITY=9.\n0.02, 3e-3, 1e-3, 4e-3, 5e-3\n0., 1., 0.\n2e9, 1e9\n";
-    let wanted = "area = 0.02\nmoments = [0.003, 0.004]\ntorsion_constant = 0.005\nshear_areas = [0.02, 0.02]\nproduct_moment = 0.001\n";
-    has(BEAM, &[(keyword, general)], Some(Dialect::Abaqus), wanted);
-    let material =
-        "[materials.rod_material]\nmodel = \"elastic\"\nyoungs_modulus = 2e9\npoisson_ratio = 0.0\ndensity = 9.0\n";
-    has(BEAM, &[(keyword, general)], Some(Dialect::Abaqus), material);
-}
-
-#[test]
 fn elements_of_beams() {
     has(BEAM, &[("TYPE=B31", "TYPE=B32"), ("1, 1, 2\n*NSET", "1, 1, 3, 2\n*NSET")], None, "order = 2\n");
     has(BEAM, &[("\n1, 1, 2\n", "\n1, 1, 2, 9\n")], None, "orientation = [0.0, 0.0, 1.0]\n");
@@ -153,23 +142,6 @@ fn elements_of_beams() {
             why,
         );
     }
-}
-
-#[test]
-fn bars() {
-    let truss = [
-        ("TYPE=B31", "TYPE=T3D2"),
-        (
-            "*BEAM SECTION, ELSET=rod, MATERIAL=m, SECTION=RECT\n0.1, 0.2\n0., 1., 0.",
-            "*SOLID SECTION, ELSET=rod, MATERIAL=m\n0.02",
-        ),
-    ];
-    has(
-        BEAM,
-        &truss,
-        None,
-        "[[bars]]\nname = \"rod_1\"\npath = [\"mesh.1\", \"mesh.2\"]\nmaterial = \"m\"\narea = 0.02\n",
-    );
 }
 
 #[test]
@@ -475,21 +447,8 @@ fn modes_and_what_they_see() {
 }
 
 #[test]
-fn masses_and_links() {
+fn springs_of_other_kinds() {
     let with = |lines: &'static str| [("*BOUNDARY", lines)];
-    has(
-        BEAM,
-        &with("*ELEMENT, TYPE=MASS, ELSET=w\n5, 2\n*MASS, ELSET=w\n3.\n*BOUNDARY"),
-        None,
-        "[[masses]]\nat = \"mesh.2\"\nmass = 3.0\n",
-    );
-    let spring = "*ELEMENT, TYPE=SPRINGA, ELSET=k\n5, 2, 9\n*SPRING, ELSET=k\n\n3.\n*BOUNDARY\n9, 1, 3";
-    has(
-        BEAM,
-        &with(spring),
-        None,
-        "[[links]]\nname = \"k_5\"\nfrom = { node = \"mesh.2\" }\nto = { node = \"mesh.9\" }\nstiffness = 3.0\n",
-    );
     let curve = "*ELEMENT, TYPE=SPRINGA, ELSET=k\n5, 2, 9\n*SPRING, ELSET=k, NONLINEAR\n\n-4., -1.\n0., 0.\n8., 1.\n*BOUNDARY\n9, 1, 3";
     has(
         BEAM,
@@ -504,34 +463,16 @@ fn masses_and_links() {
         None,
         "from = { ground = [1.0, 0.0, 0.0] }\nto = { node = \"mesh.2\" }\nbushing = [0.0, 0.0, 7.0, 0.0, 0.0, 0.0]\n",
     );
-    let damper = "*ELEMENT, TYPE=DASHPOTA, ELSET=k\n5, 2, 9\n*DASHPOT, ELSET=k\n\n3.\n*BOUNDARY\n9, 1, 3";
-    has(BEAM, &with(damper), None, "stiffness = 0.0\ndamping = 3.0\n");
-    let gap = "*ELEMENT, TYPE=GAPUNI, ELSET=k\n5, 2, 9\n*GAP, ELSET=k\n0.1, 0., 0., 1.\n*BOUNDARY\n9, 1, 3";
-    has(
-        BEAM,
-        &with(gap),
-        None,
-        "law = \"compression-only\"\nstiffness = 1e10\ngap = 0.1\ndirection = [0.0, 0.0, 1.0]\n",
-    );
 }
 
 #[test]
 fn bodies_and_couplings() {
     let with = |lines: &'static str| [("*BOUNDARY", lines), ("*CLOAD\n2,", "*CLOAD\n9,")];
-    let body = "*RIGID BODY, NSET=tip, REF NODE=9\n*BOUNDARY";
-    has(BEAM, &with(body), None, "[[attachments]]\nbody = \"tip_body\"\nnodes = [\"tip\", \"mesh.9\"]\n");
     has(
         BEAM,
         &with("*RIGID BODY, PIN NSET=tip, REF NODE=9\n*BOUNDARY"),
         None,
         "nodes = \"tip\"\ndofs = \"translations\"\n",
-    );
-    let coupling = "*SURFACE, TYPE=NODE, NAME=s\ntip\n*COUPLING, CONSTRAINT NAME=c, REF NODE=9, SURFACE=s\n*KINEMATIC\n1, 3\n*BOUNDARY";
-    has(
-        BEAM,
-        &with(coupling),
-        None,
-        "[[attachments]]\nbody = \"c\"\nnodes = \"tip\"\ndofs = [\"ux\", \"uy\", \"uz\"]\n",
     );
     // The mass of two points: at their centre, with their arms.
     let masses = "*NSET, NSET=both\n2, 3\n*ELEMENT, TYPE=MASS, ELSET=w\n5, 2\n6, 9\n*MASS, ELSET=w\n3.\n*RIGID BODY, NSET=tip, REF NODE=9\n*BOUNDARY";
@@ -626,29 +567,11 @@ fn connectors() {
 }
 
 #[test]
-fn velocities_damping_and_output() {
-    has(
-        BEAM,
-        &[("*STEP", "*INITIAL CONDITIONS, TYPE=VELOCITY\ntip, 3, -2.\n*STEP")],
-        None,
-        "[[initial]]\nat = \"tip\"\nvelocity = [0.0, 0.0, -2.0]\n",
-    );
-    has(
-        BEAM,
-        &[("*DENSITY", "*DAMPING, ALPHA=0.1, BETA=0.2\n*DENSITY")],
-        None,
-        "damping = { alpha = 0.1, beta = 0.2 }\n",
-    );
+fn damping_and_starts() {
     // Materials with and without damping stand side by side.
     let second = "*MATERIAL, NAME=n\n*ELASTIC\n1e9, 0.3\n*MATERIAL, NAME=m\n*DAMPING, BETA=0.2\n";
     has(BEAM, &[("*MATERIAL, NAME=m\n", second)], None, "damping = { alpha = 0.0, beta = 0.2 }\n");
     let start = |value: &str| format!("*INITIAL CONDITIONS, TYPE=DISPLACEMENT\ntip, 3, {value}\n*STEP");
     has(BEAM, &[("*STEP", &start("0."))], None, "[[loads]]");
     refuses(BEAM, &[("*STEP", &start("0.1"))], "move the nodes of the mesh");
-    has(
-        BEAM,
-        &[("*CLOAD", "*NODE FILE\nU, RF\n*EL PRINT\nS\n*CLOAD")],
-        None,
-        "[output]\nnodes = \"all\"\nreactions = true\nsections = true\n",
-    );
 }
