@@ -116,7 +116,7 @@ pub mod linearized_prediction {
 }
 
 pub mod refresh {
-    /// Largest number of steps that begin with a fresh matrix because old ones have misled.
+    /// Largest number of equilibria that begin with a fresh matrix because old ones have misled, or that get one in every iteration.
     pub const MOST_EAGER: usize = 64;
     /// Contraction above which any matrix is renewed, because the iteration would reach its limit.
     pub const USED_UP: f64 = 0.9;

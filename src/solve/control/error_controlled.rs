@@ -146,7 +146,8 @@ impl<'a> ErrorController<'a> {
         let grown = if before > 0.0 { after / before } else { 1.0 };
         self.motion = estimate.motion;
         let factor = self.constant * dt.powi(self.order + 1);
-        let corner = |constant: f64, order: i32| (constant * dt.powi(order) * end_time).powf(1.0 / f64::from(order + 1));
+        let corner =
+            |constant: f64, order: i32| (constant * dt.powi(order) * end_time).powf(1.0 / f64::from(order + 1));
         let tau = corner(self.constant, self.order).max(corner(self.of_phase, self.order + 1));
         self.lasting.update(&self.errors[0], factor, dt, tau);
         let lasting = factor * self.measure.relative(self.lasting.value(), self.motion, time);

@@ -30,8 +30,8 @@ pub struct Refresh {
     stale_beyond: f64,
     /// Size of the first correction of the current iteration, if its matrix was formed for it.
     first: Option<f64>,
-    /// Number of steps still to get a fresh matrix in every iteration, since anything less has failed, and the number to ask for when it
-    /// fails next.
+    /// Number of equilibria still to get a fresh matrix in every iteration, with the current one, since anything less has failed, and the
+    /// number to ask for when it fails next.
     required: usize,
     next_required: usize,
 }
@@ -192,7 +192,7 @@ impl Refresh {
     }
 }
 
-/// Asks for help in the coming steps, in twice as many as the last time.
+/// Asks for help in this and the following steps, in twice as many as the last time.
 fn ask_again(steps: &mut usize, next: &mut usize) {
     *steps = *next;
     *next = (2 * *next).min(MOST_EAGER);

@@ -5,7 +5,7 @@ use super::pose::{ConvexPose, LeastAxis};
 use crate::elements::contact::history::PairMemory;
 use crate::elements::contact::steps::first_reached;
 use crate::state::{Configuration, Node};
-use base::math::Vec3;
+use base::math::{Mat3, Vec3};
 
 /// True where a step from `start` to `now` must be shorter: one solid is through the other, or more than half way, or an impact is not
 /// resolved.
@@ -59,8 +59,11 @@ struct Way<'a> {
 impl Way<'_> {
     fn least_axis(&self, t: f64) -> LeastAxis {
         let Way { from, to } = self;
-        let (y, Q) = (from.y + t * (to.y - from.y), from.Q + t * (to.Q - from.Q));
-        ConvexPose { y, Q, ..**from }.least_axis()
+        // Boxes need axes at right angles.
+        let [x, toward] = [0, 1].map(|k| from.Q.column(k) + t * (to.Q.column(k) - from.Q.column(k)));
+        let (x, z) = (x.normalize(), x.cross(&toward).normalize());
+        let Q = Mat3::from_columns(&[x, z.cross(&x), z]);
+        ConvexPose { y: from.y + t * (to.y - from.y), Q, ..**from }.least_axis()
     }
 
     /// Where the two meet first on a way of this `length`.
