@@ -11,6 +11,8 @@ pub mod iteration {
     pub const LONGER: usize = 4;
     /// Residual beyond a limit load is the excess load; a larger part of the forces shows lost iterates.
     pub const NEAR_LIMIT: f64 = 0.1;
+    /// Iterations of a step with the elastic matrix: the default limit of the initial load method.
+    pub const INITIAL_LOADS: usize = 200;
 }
 
 pub mod convergence {

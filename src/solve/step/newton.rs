@@ -21,7 +21,7 @@ use crate::strategy::extrapolation::StressExtrapolation;
 use crate::strategy::linearized_prediction::LinearizedPrediction;
 use crate::strategy::refresh::{Advice, Refresh};
 use crate::strategy::relaxation::Relaxation;
-use crate::tolerances::iteration::{BALANCED, LONGER, NEAR_LIMIT};
+use crate::tolerances::iteration::{BALANCED, INITIAL_LOADS, LONGER, NEAR_LIMIT};
 use crate::workspace::Workspace;
 use base::snapshot::keep;
 
@@ -85,7 +85,19 @@ impl Newton {
         path: Option<PathCondition>,
     ) -> Result<StepReport, Failure> {
         let progress = StepProgress::begin(cx, step.to, path.is_none(), &self.tolerance);
-        let found = self.iterate(cx, ws, guards, step, progress, path);
+        let is_load_step = path.is_none() && self.regime.has_load_control(cx);
+        let mut found = self.iterate(cx, ws, guards, step, progress, path);
+        // Where whole sections yield, in shear too, tangents lead far away; the initial load method then contracts, and shorter steps do not.
+        if let Err(failure) = &found
+            && !matches!(failure, Failure::Stopped | Failure::Singular { .. })
+            && is_load_step
+            && cx.system.yields()
+            && self.matrix.refresh.require_elastic_matrix()
+        {
+            self.predict(cx, ws, &step);
+            let progress = StepProgress::begin(cx, step.to, true, &self.tolerance).with_limit(INITIAL_LOADS);
+            found = self.iterate(cx, ws, guards, step, progress, None).or(found);
+        }
         self.arrive(ws, found)
     }
 

@@ -57,6 +57,11 @@ impl StepProgress {
         StepProgress { predicted: false, ..self }
     }
 
+    /// This progress with another limit of iterations.
+    pub fn with_limit(self, limit: usize) -> StepProgress {
+        StepProgress { limit, ..self }
+    }
+
     /// Moves the end of the step. A correction δt of the time causes an error of the loads of order δt², for every motion.
     pub fn move_time(&mut self, cx: &Context, to: f64) {
         self.time_error = ((to - self.report.to) / cx.model.analysis.duration()).powi(2);

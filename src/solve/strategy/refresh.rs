@@ -34,10 +34,12 @@ pub struct Refresh {
     /// number to ask for when it fails next.
     required: usize,
     next_required: usize,
+    /// True where the step gets the elastic matrix, since tangents have failed.
+    elastic_required: bool,
 }
 
 keep!(Refresh {
-    dt, wanted, baseline, excess, eager, next_eager, stale_beyond, first, required, next_required,
+    dt, wanted, baseline, excess, eager, next_eager, stale_beyond, first, required, next_required, elastic_required,
  } without { method, update, cost, learns });
 
 /// The advice after a correction.
@@ -85,12 +87,14 @@ impl Refresh {
             first: None,
             required: 0,
             next_required: 1,
+            elastic_required: false,
         }
     }
 
     /// The moduli with which the matrix is formed.
     pub fn moduli(&self) -> Moduli {
         match self.method {
+            _ if self.elastic_required => Moduli::Elastic,
             Method::InitialLoad if self.required == 0 => Moduli::Elastic,
             _ => Moduli::Algorithmic,
         }
@@ -154,7 +158,7 @@ impl Refresh {
     pub fn advise(&mut self, fresh: bool, judgement: &Judgement) -> Advice {
         let contraction = self.contraction(judgement);
         // An elastic matrix contracts slowly where material yields, and a new one would not be faster.
-        let patient = self.update == Update::Never || self.method == Method::InitialLoad;
+        let patient = self.update == Update::Never || self.moduli() == Moduli::Elastic;
         if patient && (contraction < 1.0 || fresh) {
             return Advice::GoOn;
         }
@@ -170,6 +174,9 @@ impl Refresh {
 
     /// Counts an accepted step. Renewing a matrix pays once its excess iterations over a fresh one cost as much as the renewal.
     pub fn accepted(&mut self, iterations: usize) {
+        if std::mem::take(&mut self.elastic_required) {
+            self.dt = None;
+        }
         let baseline = *self.baseline.get_or_insert(iterations);
         self.excess += iterations.saturating_sub(baseline);
         self.wanted = self.update == Update::Auto && self.excess as f64 >= self.cost;
@@ -180,13 +187,24 @@ impl Refresh {
     /// Discards the matrix after a failed step, because it belongs to a rejected motion.
     pub fn rejected(&mut self) {
         self.dt = None;
+        self.elastic_required = false;
     }
 
     /// Asks, after a step that did not converge, for a fresh matrix in every iteration. Returns false if it was required already.
     pub fn require_fresh_matrix(&mut self) -> bool {
-        let more = self.required == 0 && matches!(self.update, Update::Auto | Update::Step);
+        let more = self.required == 0 && !self.elastic_required && matches!(self.update, Update::Auto | Update::Step);
         if more {
             ask_again(&mut self.required, &mut self.next_required);
+        }
+        more
+    }
+
+    /// Asks, after tangents did not converge either, for the elastic matrix. Returns false if this was required already, or the deck names
+    /// a method.
+    pub fn require_elastic_matrix(&mut self) -> bool {
+        let more = !self.elastic_required && self.method == Method::Auto;
+        if more {
+            (self.elastic_required, self.required, self.wanted) = (true, 0, true);
         }
         more
     }
