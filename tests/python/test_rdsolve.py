@@ -87,6 +87,16 @@ class Module(unittest.TestCase):
             missed["shells"]
         self.assertIn("nodes", str(caught.exception))
 
+    def test_a_torn_row_is_no_row(self):
+        rdsolve.run(self.deck, output=self.out)
+        whole = rdsolve.read(self.out)["nodes"]
+        table = self.out / "nodes.csv"
+        # The last number has lost digits, and is a number still.
+        table.write_bytes(table.read_bytes()[:-2])
+        with self.assertWarnsRegex(UserWarning, "nodes.csv is incomplete"):
+            torn = rdsolve.read(self.out)["nodes"]
+        self.assertTrue(torn.equals(whole.iloc[:-1]))
+
     def test_values_are_written_as_toml(self):
         for value, text in [
             (True, "true"),

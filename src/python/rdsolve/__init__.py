@@ -5,11 +5,13 @@
     nodes.attrs["units"]["ux"]        # "m", where the deck has units = "SI"
 """
 
+import io
 import json
 import os
 import shutil
 import subprocess
 import sysconfig
+import warnings
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
@@ -96,8 +98,9 @@ class Results(Mapping):
             path = self.folder / f"{name}.csv"
             if not path.is_file():
                 raise KeyError(f"{self.folder} has no table {name!r}, but {', '.join(self) or 'none'}")
+            whole = _whole_rows(path)
             # Texts such as "NA" are names, and every number is read back to the last bit.
-            frame = pandas.read_csv(path, keep_default_na=False, na_values=[""], float_precision="round_trip")
+            frame = pandas.read_csv(whole, keep_default_na=False, na_values=[""], float_precision="round_trip")
             known = _columns().get(path.name, {})
             columns = {name: known[name] for name in frame.columns if name in known}
             system = self.result.get("units", "")
@@ -118,6 +121,18 @@ class Results(Mapping):
 
 def _call(words):
     return subprocess.run([program(), *words], capture_output=True, text=True, encoding="utf-8", check=False)
+
+
+def _whole_rows(path):
+    """The rows of a table that have an end: a run that is writing, or was killed, leaves half a row behind them."""
+    text = path.read_bytes()
+    end = text.rfind(b"\n") + 1
+    # A quoted name may hold line breaks.
+    while text.count(b'"', 0, end) % 2:
+        end = text.rfind(b"\n", 0, end - 1) + 1
+    if end < len(text):
+        warnings.warn(f"the last line of {path} is incomplete and omitted", stacklevel=3)
+    return io.BytesIO(text[:end])
 
 
 @lru_cache(maxsize=None)
