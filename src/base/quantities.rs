@@ -382,7 +382,11 @@ pub const ENERGY: [Column; 19] = {
         energy("contact", "stored in contacts"),
         energy("friction", "dissipated so far by friction in contacts").positive("dissipated"),
         energy("impact", "dissipated so far in impacts, by contact damping and restitution").positive("dissipated"),
-        energy("external", "work done so far by loads, gravity and prescribed motion").positive("put in"),
+        energy(
+            "external",
+            "work of loads, gravity and prescribed motion so far, with the energy that stages add at their start",
+        )
+        .positive("put in"),
         energy(
             "numerical",
             "algorithmic dissipation, the remainder of the balance: initial + external − dissipated − `mechanical`",

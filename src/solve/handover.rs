@@ -31,6 +31,8 @@ pub struct Handover {
     pub(super) counts: Counts,
     /// The missing energy of the balance so far.
     pub(super) missed: f64,
+    /// Mechanical energy at the reference of the balance; `None` if energies are not summed.
+    pub(super) initial_energy: Option<f64>,
     /// The unbalanced forces on each node at the end of the previous stage, if a motion continues under changed loads only. Schemes with
     /// equilibrium off the ends of steps cause them.
     pub(super) out_of_balance: Option<Vec<Force>>,
@@ -95,6 +97,7 @@ pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(Syste
             let energy = Energy::of(cx.system, state, Some(initial), cx.plan.threads);
             energy.numerical
         }),
+        initial_energy: before.initial_energy,
         load_steps: (is_static && !cx.is_dynamic()).then(|| before.load_steps.clone()),
     };
     Ok((system, handover))

@@ -140,26 +140,29 @@ impl Recorder {
         }
     }
 
-    /// Sums the energy at the start of the run, or of a stage. Changes between stages do not count as missing energy.
-    pub fn begin(&mut self, cx: &Context, state: &State, handover: Option<&Handover>) {
+    /// Sums the energy at the start of the run, or of a stage. Energy that a stage adds or removes at its start is external work.
+    pub fn begin(&mut self, cx: &Context, state: &mut State, handover: Option<&Handover>) {
         self.breakage.begin(cx.system, state);
         self.events.begin(cx, state);
         self.eroded = state.work.material.eroded;
         let sums = !cx.is_dynamic() || self.wanted.has(Wanted::ENERGY) || checks_energy_growth(cx.model);
-        let sum = |initial: Option<f64>| Energy::of(cx.system, state, initial, cx.plan.threads);
-        let mut energy = sums.then(|| sum(None));
+        let sum = |state: &State, initial: Option<f64>| Energy::of(cx.system, state, initial, cx.plan.threads);
+        let mut energy = sums.then(|| sum(state, None));
         self.initial_energy = energy.map(|energy| energy.mechanical);
         self.growth.begin(Balance::default(), state.time);
         if !sums {
             self.growth.begin_without_balance((cx.model, cx.plan, cx.system), state);
         }
-        if let Some(Handover { counts, missed, .. }) = handover {
+        if let Some(Handover { counts, missed, initial_energy, .. }) = handover {
             (self.counts, self.before) = (*counts, *counts);
+            if let Some(initial) = initial_energy.filter(|_| sums) {
+                state.work.external += missed - sum(state, Some(initial)).numerical;
+            }
             let balance = Balance::after(*missed + state.work.verlet_energy_offset, state.work.external);
             self.growth.begin(balance, state.time);
             if sums {
-                self.initial_energy = Some(missed - sum(Some(0.0)).numerical);
-                energy = Some(sum(self.initial_energy));
+                self.initial_energy = Some(missed - sum(state, Some(0.0)).numerical);
+                energy = Some(sum(state, self.initial_energy));
             }
         }
         self.growth.balance.rounding =

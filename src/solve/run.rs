@@ -159,7 +159,7 @@ impl<'a> Run<'a> {
         };
         if checkpoint.is_none() {
             cx.system.recover(&mut state.nodes);
-            recorder.begin(cx, &state, handover.as_ref());
+            recorder.begin(cx, &mut state, handover.as_ref());
         }
         let samples = Samples::new(&schedule.samples);
         let stop_watch = stop_watch.as_mut().filter(|_| !recorder.is_comparison);

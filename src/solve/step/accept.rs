@@ -36,9 +36,15 @@ pub fn accept(
     }
     cx.system.recover(&mut ws.end.nodes);
     guards.ask(|guard| guard.at_end(cx, ws, &step, &account.dissipated))?;
-    if !cx.is_dynamic() && cx.system.has_contacts() && cx.wants_forces {
-        let end = (&ws.end.nodes[..], step.dt());
-        account.contact_excess = contact_work::excess_of_mean(cx.system, step.state, end, &mut ws.history);
+    if !cx.is_dynamic() && cx.wants_forces {
+        let (state, end) = (step.state, &ws.end.nodes[..]);
+        if cx.system.has_contacts() {
+            account.excess = contact_work::excess_of_mean(cx.system, state, (end, step.dt()), &mut ws.history);
+        }
+        if state.time == cx.model.analysis.begin {
+            account.excess +=
+                contact_work::excess_at_start(cx.model, cx.system, state, (end, &ws.loads.start), &ws.forces);
+        }
     }
     commit(cx, ws, projection, state, (stage.scheme, to), account);
     Ok(())

@@ -21,8 +21,8 @@ pub struct Account {
     pub damping_power: Option<f64>,
     /// Work of loads and damping by quadrature over the stages; `None`: by the trapezoidal rule over the step.
     pub work: Option<WorkQuadrature>,
-    /// Excess of the trapezoidal rule in the work of a load step, caused by contacts that close or open within the step.
-    pub contact_excess: f64,
+    /// Excess of the trapezoidal rule in the work of a load step: contacts close or open within it, or its start is out of balance.
+    pub excess: f64,
 }
 
 /// Makes the motion at the end of the step the state at the time `to`.
@@ -47,7 +47,7 @@ pub fn commit(
     }
     update_algorithmic_accelerations(cx, ws, state);
     state.work.material += account.dissipated;
-    state.work.external -= account.contact_excess;
+    state.work.external -= account.excess;
     for (old, value) in state.multipliers.iter_mut().zip(&ws.forces.multipliers.values) {
         *old += (value - *old) / scheme.instant;
     }
