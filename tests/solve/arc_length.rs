@@ -619,7 +619,8 @@ fn truss_is_pushed_by_its_displacement() {
     assert_eq!(turns(&done.rows), 2);
 }
 
-/// Weight first, then a path to a displacement, then rest: the path ends at the load of the closed form, which stays in the stage after it.
+/// Weight first, then a path to a displacement, then rest: the path ends at the load of the closed form, which stays in the stage after it. A pattern
+/// of loads that a displacement leads grows beyond its value.
 #[test]
 fn stages_follow_paths() {
     let stage =
@@ -630,15 +631,16 @@ fn stages_follow_paths() {
             "[[expect]]\nat = \"{at}\"\nquantity = \"{quantity}\"\nstage = \"{stage}\"\nvalue = {value:?}\nabsolute_tolerance = 1e-7\n"
         )
     };
-    for control in ["control = \"displacement\"\nincrement = 0.02", "control = \"arc-length\"\ntime_step = 0.05"] {
+    let (moved, arc) = ("control = \"displacement\"\nincrement = 0.02", "control = \"arc-length\"\ntime_step = 0.05");
+    for (control, force) in [(moved, 60.0), (arc, 60.0), (moved, 6.0)] {
         let deck = stage("weight", "time_step = 0.5")
             + &stage("push", &format!("{control}\n{stop}"))
             + &stage("rest", "time_step = 0.5")
             + TRUSS
             + "[[loads]]\nat = \"crown\"\nforce = [0.0, 0.0, -10.0]\n"
-            + "[[loads]]\nat = \"crown\"\nforce = [0.0, 0.0, -60.0]\nstages = [\"push\", \"rest\"]\n"
+            + &format!("[[loads]]\nat = \"crown\"\nforce = [0.0, 0.0, -{force:?}]\nstages = [\"push\", \"rest\"]\n")
             + &expect("crown", "uz", "push", -0.1)
-            + &expect("analysis", "time", "push", 1.0 + (truss(0.1) - 10.0) / 60.0)
+            + &expect("analysis", "time", "push", 1.0 + (truss(0.1) - 10.0) / force)
             + &expect("crown", "uz", "rest", -0.1);
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("d.toml"), deck).unwrap();

@@ -29,6 +29,8 @@ pub struct StageSequence<'d> {
 /// Least duration of a stage, relative to the time at its end, against rounding of times. Events within 1e-9 of that time count as one, and
 /// a comparison of runs needs sixteen of them in a stage.
 const SHORTEST: f64 = 1e-7;
+/// How far a displacement can lead loads, in durations of its stage.
+const FARTHEST: f64 = 1e6;
 
 /// A stage with its times, which are those of the run.
 pub struct PlannedStage<'d> {
@@ -39,6 +41,8 @@ pub struct PlannedStage<'d> {
     pub duration: f64,
     /// Its end time, past or planned.
     pub end: f64,
+    /// True if the stage has ended.
+    has_ended: bool,
 }
 
 impl PlannedStage<'_> {
@@ -126,6 +130,7 @@ impl<'d> StageSequence<'d> {
             begin,
             duration,
             end,
+            has_ended: reached.is_some(),
         }
     }
 
@@ -203,11 +208,17 @@ impl<'d> StageSequence<'d> {
             if stage.kind != StageKind::Static {
                 return Amplitude::Constant;
             }
-            if stage.end >= planned {
-                return Amplitude::Ramp { start: stage.begin, end: planned };
+            // A pattern of loads grows until the displacement is there.
+            let end = if is_moved(stage.table) && !stage.has_ended {
+                stage.begin + FARTHEST * stage.duration
+            } else {
+                stage.end
+            };
+            if end == planned {
+                return Amplitude::Ramp { start: stage.begin, end };
             }
-            let reached = (stage.end - stage.begin) / stage.duration;
-            Amplitude::Table(StraightLines::new(vec![[stage.begin, 0.0], [stage.end, reached]]))
+            let reached = (end - stage.begin) / stage.duration;
+            Amplitude::Table(StraightLines::new(vec![[stage.begin, 0.0], [end, reached]]))
         })
     }
 }

@@ -44,8 +44,8 @@ impl Targets {
     /// The end of the path, its `stop`, and the expectations along it.
     pub fn new(model: &Model, path: &ArcLength) -> Self {
         let mut all = Targets(Vec::new());
-        // Loads that a displacement leads have no last value, but for those that stages bring on.
-        if path.increment.is_none() || model.analysis.stage.is_some() {
+        // Loads that a displacement leads have no last value.
+        if path.increment.is_none() {
             all.add(TargetQuantity::Time, model.analysis.end_time, 1).ends = true;
         }
         if let Some(stop) = path.stop {
