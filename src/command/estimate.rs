@@ -119,8 +119,11 @@ pub fn effort(model: &Model, system: &System, plan: &Plan) -> Option<String> {
             // Steps that are cut are counted too.
             let measured = measured.min(all as usize);
             let about = if matches!(model.analysis.step_length, StepLength::Fixed { .. }) { "" } else { "about " };
+            // Nothing touches or yields at the drawn state, mostly.
+            let changes = (measured as f64) < all && (model.may_stiffen() || model.yields());
+            let later = if changes { "; parts that touch or yield later, and cutbacks, take more" } else { "" };
             Some(format!(
-                "{about}{} in {} without output: {} a second on this machine, at the rate of the first {measured}",
+                "{about}{} in {} without output: {} a second on this machine, at the rate of the first {measured}{later}",
                 counted_steps(all),
                 span(all * each),
                 to_digits(1.0 / each, 2)

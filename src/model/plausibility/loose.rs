@@ -6,7 +6,8 @@ use crate::report::Report;
 /// Warns of parts at rest that have no connection to supported ones, and no load. In statics the matrix is singular there; in dynamics they fall
 /// or stand still. Where nothing is supported, all of them are free on purpose, unless they deform and fall into the void.
 pub fn check_loose(model: &Model, report: &mut Report) {
-    if model.analysis.kind != AnalysisKind::Dynamic {
+    let is_static = model.analysis.kind == AnalysisKind::Static;
+    if !is_static && model.analysis.kind != AnalysisKind::Dynamic {
         return;
     }
     let falls = model.loading.gravity.norm() > 0.0;
@@ -24,15 +25,19 @@ pub fn check_loose(model: &Model, report: &mut Report) {
     model.loading.pressures.iter().flat_map(|load| &load.faces).flat_map(|face| face.nodes()).for_each(|&node| {
         is_free[groups.of(node)] = false;
     });
+    if is_static {
+        // A load does not hold a part, and bodies that wait for a later stage are left out of the equations.
+        is_free.fill(true);
+    }
     let deformable = model.parts.iter().filter(|part| part.kind().is_deformable() && part.elements() > 0);
     let parts = deformable.filter_map(|part| Some((part.name(), *part.nodes(0).first()?)));
     let bodies = model.bodies.iter().map(|body| (body.name.as_str(), body.node));
-    let all: Vec<(&str, usize)> = parts.chain(bodies).collect();
+    let all: Vec<(&str, usize)> = parts.chain(bodies.filter(|_| !is_static)).collect();
     if !all.iter().any(|(_, node)| groups.of(*node) == ground) {
         let is_still = model.nodes.iter().all(|node| node.v.norm() + node.omega.norm() == 0.0);
         let lands = model.parts.iter().any(|part| !part.touched_nodes().is_empty()) || !model.loading.nodal.is_empty();
         let deforms = model.parts.iter().any(|part| part.kind().is_deformable());
-        if let Some((name, node)) = all.first().filter(|_| falls && is_still && !lands && deforms) {
+        if let Some((name, node)) = all.first().filter(|_| falls && !is_static && is_still && !lands && deforms) {
             let message =
                 format!("no support, joint or contact holds `{name}` or any other part: all of them fall freely");
             report.warn(&place(*node), message, "add `[[supports]]`");
@@ -44,7 +49,11 @@ pub fn check_loose(model: &Model, report: &mut Report) {
         if group == ground || !std::mem::take(&mut is_free[group]) {
             continue;
         }
-        let does = if falls { "falls freely" } else { "stands still" };
+        let does = match is_static {
+            true => "has no static equilibrium",
+            false if falls => "falls freely",
+            false => "stands still",
+        };
         let message = format!("nothing joins `{name}` to the parts that supports hold: it {does}");
         let hint = "name a point of it in another part, or join it by `[[joints]]`, `[[ties]]`, `[[attachments]]`, `[[links]]` or `[[contacts]]`";
         report.warn(&place(node), message, hint);

@@ -19,6 +19,9 @@ const FAR: f64 = 10.0;
 /// A beam that stands alone may be a bolt between plates or a pin in lugs, so much deeper than long; slips of units are a thousand times.
 const BOLT: f64 = 3.0;
 
+/// Depths in the length of a beam beyond which lengths and sections are in different units: such a wire has no bending stiffness to speak of.
+const SLENDER: f64 = 5000.0;
+
 /// Warns of parts thicker than they are wide or long. The deck is sound.
 pub fn check_proportions(scene: &Scene, nodes: &Nodes, report: &mut Report) {
     let connected = Connected::new(scene, nodes);
@@ -50,7 +53,15 @@ fn check_shell(part: &DeckPart, thickness: f64, extent: &Extent, report: &mut Re
 }
 
 fn check_line(part: &DeckPart, of: &[Part], depths: [f64; 2], (extent, nodes): (&Extent, &Nodes), report: &mut Report) {
-    let length = of.iter().map(|part| (0..part.elements()).map(|e| length(part.nodes(e), nodes)).sum::<f64>()).sum();
+    let length: f64 =
+        of.iter().map(|part| (0..part.elements()).map(|e| length(part.nodes(e), nodes)).sum::<f64>()).sum();
+    let depth = depths[0].max(depths[1]);
+    if depth > 0.0 && length > SLENDER * depth {
+        let (title, times) = (part.title(), short(length / depth));
+        let message = format!("{title} is {} long, {times} times the depth of its section", short(length));
+        report.warn(part.span, message, "look at the units of lengths and sections; cables are `[[bars]]`");
+        return;
+    }
     // A bending stiffness far from its area may stand for anything: the depth of a rectangle is the word for it.
     let (deep, long) = match depths {
         [_, larger] if larger > BOLT * extent.length => (larger, extent.length),

@@ -51,6 +51,8 @@ fn mass(model: &Model, system: &System, units: Option<&UnitSystem>) -> Option<St
         let [weight, field] = [to_digits(mass * gravity, 6), short(gravity)];
         let way = along(&(model.loading.gravity / gravity));
         line += &format!("; weight {weight}{of_force} under gravity {field}{of_field} along {way}");
+    } else {
+        line += "; no gravity";
     }
     Some(line)
 }
