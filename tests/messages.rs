@@ -1013,7 +1013,9 @@ fn loads_and_values() {
         portal_and(
             "[[expect]]\nat = \"knee_right\"\nquantity = \"qw\"\ntime = 4.0\nvalue = 0.0\ntolerance = 0.1\n
 [[expect]]\nat = \"energy\"\nquantity = \"kinetik\"\npeak = \"max\"\nvalue = 1.0\n
-[[expect]]\nat = \"feet\"\nquantity = \"ux\"\npeak = \"max\"\nvalue = 1.0\ntolerance = 0.1"
+[[expect]]\nat = \"feet\"\nquantity = \"ux\"\npeak = \"max\"\nvalue = 1.0\ntolerance = 0.1\n\
+             [[supports]]\nname = \"side\"\nat = \"knee_left\"\nfix = [\"uy\"]\n\
+             [[expect]]\nat = \"side\"\nquantity = \"fy\"\npeak = \"max\"\nvalue = 1.0\ntolerance = 0.1"
         )
     );
     assert_snapshot!(

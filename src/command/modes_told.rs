@@ -1,6 +1,7 @@
 //! The modes of a run as lines for the terminal and the log.
 
 use base::names::to_digits;
+use base::quantities::{Unit, UnitSystem};
 use model::Model;
 use solve::modes::{EigenMode, ModeKind, Modes};
 use std::fmt::Write;
@@ -15,18 +16,28 @@ pub fn lines(modes: &Modes, model: &Model) -> Vec<String> {
     if modes.list.is_empty() || modes.response.is_some() {
         return Vec::new();
     }
+    let units = model.output.units.as_deref().and_then(UnitSystem::find);
     let mut lines = match modes.kind {
         ModeKind::Buckling => of_buckling(&modes.list),
-        ModeKind::Natural if model.analysis.damps_modes() => of_damped(&modes.list),
-        ModeKind::Natural => of_natural(modes),
+        ModeKind::Natural if model.analysis.damps_modes() => of_damped(&modes.list, units),
+        ModeKind::Natural => of_natural(modes, units),
     };
     if let Some(more) = modes.list.len().checked_sub(LISTED).filter(|more| *more > 0) {
         lines.push(format!("  and {more} more in modes.csv"));
     }
     if !modes.speeds.is_empty() {
-        lines.extend(of_critical_speeds(modes));
+        lines.extend(of_critical_speeds(modes, units));
     }
     lines
+}
+
+/// A heading with its unit, where the deck has units.
+fn heading(word: &str, unit: Unit, units: Option<&UnitSystem>) -> String {
+    units.map_or_else(|| word.to_owned(), |units| format!("{word} ({})", unit.text(Some(units))))
+}
+
+fn headings(units: Option<&UnitSystem>) -> [String; 2] {
+    [heading("frequency", Unit::Frequency, units), heading("period", Unit::Time, units)]
 }
 
 /// Rows of cells, right-aligned under their headings.
@@ -63,7 +74,7 @@ fn period(mode: &EigenMode) -> String {
     if mode.frequency() > 0.0 { digits(1.0 / mode.frequency()) } else { String::new() }
 }
 
-fn of_natural(modes: &Modes) -> Vec<String> {
+fn of_natural(modes: &Modes, units: Option<&UnitSystem>) -> Vec<String> {
     let share = |mass: f64, axis: usize| match modes.masses[axis] > 0.0 {
         true => format!("{:.1} %", 100.0 * mass / modes.masses[axis] + 0.0),
         false => String::new(),
@@ -75,17 +86,19 @@ fn of_natural(modes: &Modes) -> Vec<String> {
     let mut rows: Vec<Vec<String>> = (1..).zip(&modes.list).take(LISTED).map(row).collect();
     let sum = |axis: usize| share(modes.list.iter().map(|mode| mode.effective_mass(axis)).sum(), axis);
     rows.push(["sum".to_owned(), String::new(), String::new()].into_iter().chain((0..3).map(sum)).collect());
-    table(&["mode", "frequency", "period", "mass x", "mass y", "mass z"], rows)
+    let [frequency, period] = headings(units);
+    table(&["mode", &frequency, &period, "mass x", "mass y", "mass z"], rows)
 }
 
-fn of_damped(list: &[EigenMode]) -> Vec<String> {
+fn of_damped(list: &[EigenMode], units: Option<&UnitSystem>) -> Vec<String> {
     let spins = list.iter().any(|mode| mode.whirl.is_some());
     let row = |(number, mode): (usize, &EigenMode)| {
         let damping = percent(mode.damping_ratio());
         let own = [number.to_string(), digits(mode.frequency()), period(mode), damping];
         own.into_iter().chain(spins.then(|| whirl_in_words(mode.whirl))).collect()
     };
-    let headings = ["mode", "frequency", "period", "damping", "whirl"];
+    let [frequency, period] = headings(units);
+    let headings = ["mode", &frequency, &period, "damping", "whirl"];
     table(&headings[..if spins { 5 } else { 4 }], (1..).zip(list).take(LISTED).map(row).collect())
 }
 
@@ -94,17 +107,18 @@ fn of_buckling(list: &[EigenMode]) -> Vec<String> {
     table(&["mode", "load factor"], (1..).zip(list).take(LISTED).map(row).collect())
 }
 
-fn of_critical_speeds(modes: &Modes) -> Vec<String> {
+fn of_critical_speeds(modes: &Modes, units: Option<&UnitSystem>) -> Vec<String> {
     let range = [modes.speeds.first(), modes.speeds.last()].map(|at| at.map_or(0.0, |at| at.speed));
     if modes.critical_speeds.is_empty() {
-        return vec![format!("no critical speed from {} to {}", digits(range[0]), digits(range[1]))];
+        let unit = units.map_or_else(String::new, |units| format!(" {}", Unit::AngularVelocity.text(Some(units))));
+        return vec![format!("no critical speed from {} to {}{unit}", digits(range[0]), digits(range[1]))];
     }
     let row = |(number, critical): (usize, &solve::modes::CriticalSpeed)| {
         let damping = percent(critical.mode.damping_ratio());
         vec![number.to_string(), digits(critical.speed), damping, whirl_in_words(critical.mode.whirl)]
     };
     let rows = (1..).zip(&modes.critical_speeds).take(LISTED).map(row).collect();
-    table(&["critical", "speed", "damping", "whirl"], rows)
+    table(&["critical", &heading("speed", Unit::AngularVelocity, units), "damping", "whirl"], rows)
 }
 
 /// "forward", "backward" of orbits that are nearly circular or elliptic, "planar" of those along lines.

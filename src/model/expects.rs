@@ -326,16 +326,34 @@ impl<'d> Expects<'_, 'd> {
                     "name a point, body, part, link, joint, contact or drift, or \"energy\"",
                 )
             }
-            None => {
-                let known = || {
-                    let mut known = self.scene.names.known(|_| true);
-                    known.push("energy");
-                    known.sort_unstable();
-                    known
-                };
-                self.scene.names.unknown("point, body, part or link", name, known, self.report)
-            }
+            None => self.unknown(name),
         }
+    }
+
+    /// Reports a name that has no values; that of a support gets the point whose reaction it is.
+    fn unknown<T>(&mut self, name: &At<String>) -> Option<T> {
+        if let Some(node) = self.held_by(name) {
+            let message = format!("`{}` is the name of a support, which has no values", name.value);
+            let hint = format!(
+                "for its reaction give a point that it holds, such as at = \"{node}\", and a quantity from \"fx\" to \"mz\""
+            );
+            return self.report.error_with(&name.span, message, hint);
+        }
+        let known = || {
+            let mut known = self.scene.names.known(|_| true);
+            known.push("energy");
+            known.sort_unstable();
+            known
+        };
+        self.scene.names.unknown("point, body, part or link", name, known, self.report)
+    }
+
+    /// The first name in the support of this name.
+    fn held_by(&self, name: &At<String>) -> Option<&'d str> {
+        let is_named =
+            |of: &&At<Table<deck::supports::Support>>| of.name.as_ref().is_some_and(|own| own.value == name.value);
+        let support = self.scene.deck.supports.iter().find(is_named)?;
+        support.at.as_ref()?.values.first().map(|first| first.value.as_str())
     }
 
     /// The columns of reactions at a node: the directions restrained by supports, at the node or at the support point of its name.
