@@ -15,6 +15,7 @@ use base::math::{Mat3, Vec3, Vec6, angular, linear, rotation};
 use base::quantities::SECTION_STRESSES;
 use base::snapshot::keep;
 use mechanics::solids::outline::OutlineCell;
+use mechanics::state::Node;
 use model::{Beam, Drawing, Model, Part, PartType};
 use solve::{Frame, ShellState, elastic_stresses};
 use std::collections::HashMap;
@@ -333,6 +334,7 @@ impl Fields {
             grid.push("<PointData>\n");
             vectors(grid, places, "displacement", |p| moved(p, &mode.shape));
             vectors(grid, places, "rotation", |p| angular(&mode.shape[p.node]));
+            write_axes(grid, places, now);
             if !mode.quadrature.is_empty() {
                 vectors(grid, places, "displacement_ahead", |p| moved(p, &mode.quadrature));
                 vectors(grid, places, "rotation_ahead", |p| angular(&mode.quadrature[p.node]));
@@ -432,6 +434,13 @@ fn vectors(grid: &mut GridText, places: &[Place], name: &str, vector: impl Fn(&P
     grid.array(name, 3, places.iter().flat_map(|place| <[f64; 3]>::from(vector(place))));
 }
 
+/// Adds the axes of sections at the points.
+fn write_axes(grid: &mut GridText, places: &[Place], now: &[Node]) {
+    for (axis, name) in ["frame_x", "frame_y", "frame_z"].into_iter().enumerate() {
+        vectors(grid, places, name, |p| now[p.node].R() * p.axes.column(axis));
+    }
+}
+
 /// Adds the points of a grid and their data.
 fn write_points(grid: &mut GridText, places: &[Place], frame: &Frame) {
     let (start, now) = (&frame.model.nodes, &frame.state.nodes);
@@ -447,9 +456,7 @@ fn write_points(grid: &mut GridText, places: &[Place], frame: &Frame) {
         Some(case) => angular(&case.motions[p.node]),
         None => rotation::log(&now[p.node].rotation),
     });
-    for (axis, name) in ["frame_x", "frame_y", "frame_z"].into_iter().enumerate() {
-        vectors(grid, places, name, |p| now[p.node].R() * p.axes.column(axis));
-    }
+    write_axes(grid, places, now);
     // Points of beams come first.
     let resultants = &frame.derived.nodal_resultants;
     for (first, name) in [(0, "section_force"), (3, "section_moment")].into_iter().filter(|_| !resultants.is_empty()) {

@@ -21,6 +21,7 @@ function choice(parent, text, options, value, change) {
 
 function energy(history) {
   const names = history.columns.filter(name => history.kinds[history.columns.indexOf(name)] === "energy" && history.line(0, name).some(x => x !== 0));
+  byId("energy").hidden = !names.length;
   const parent = byId("energy-plot"), [plot, whole] = plotWith(parent);
   const kept = ["kinetic", "strain", "links", "contact"], spent = ["plastic", "viscoplastic", "damping", "friction", "impact"];
   let [ticked, stacked] = [[], false];
