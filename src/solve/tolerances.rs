@@ -290,6 +290,8 @@ pub mod strain {
     pub const LARGE: f64 = 0.05;
     /// Limits for the truncated series of logarithmic strain: at stretches of 1.34 and 0.75 forces are wrong by a hundredth.
     pub const LARGE_LOGARITHMIC: [f64; 2] = [-0.22, 0.4];
+    /// Elastic strain of a beam beyond that of metals, wood, concrete and fibres; loads in N for kN give 0.1 and more.
+    pub const BEYOND_ELASTIC: f64 = 0.1;
     /// Error of displacements by rotations in the frame of a superelement or a reduced part.
     pub const BENT: f64 = 0.003;
     /// Number of checks of strains in a run: plastic strains do not disappear.

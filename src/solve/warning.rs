@@ -113,6 +113,15 @@ pub enum Warning {
         /// Its yield stress.
         limit: f64,
     },
+    /// An elastic beam is strained as no material can be.
+    BeyondElastic {
+        /// The name of the beam.
+        name: String,
+        /// The largest normal stress.
+        stress: f64,
+        /// Its strain.
+        strain: f64,
+    },
     /// A rotation that is fixed alone has drifted.
     RotationDrifts {
         /// The name of the node.
@@ -160,6 +169,7 @@ keep_either!(Warning {
     20 => LargeRotation { label, turn },
     21 => BeyondYield { name, stress, limit },
     22 => Bent { name, reduced, linear, turn },
+    23 => BeyondElastic { name, stress, strain },
 });
 
 /// The time and the mode of an instability.
@@ -376,6 +386,7 @@ impl fmt::Display for Warning {
             Warning::RotationDrifts { label, direction, drift } => drifted(label, direction, *drift),
             Warning::LargeRotation { label, turn } => large_rotation(label, *turn),
             Warning::BeyondYield { name, stress, limit } => beyond_yield(name, *stress, *limit),
+            Warning::BeyondElastic { name, stress, strain } => beyond_elastic(name, *stress, *strain),
             Warning::Bent { name, reduced, linear, turn } => bent(name, [*reduced, *linear], *turn),
             Warning::LargeStrain { name, strain, logarithmic } => large_strain(name, *strain, *logarithmic),
             Warning::SideBySide { name } => side_by_side(name),
@@ -421,6 +432,16 @@ fn bent(name: &str, [reduced, linear]: [bool; 2], turn: f64) -> String {
         "{what} `{name}` deforms by rotations of {} rad in its frame. {why}, so displacements there are wrong by about {} %. {remedy}",
         to_digits(turn, 2),
         to_digits(100.0 * bending_error(linear, turn), 1)
+    )
+}
+
+/// The message of an elastic beam strained as no material can be.
+fn beyond_elastic(name: &str, stress: f64, strain: f64) -> String {
+    format!(
+        "the stress in `{name}` reaches {}, a strain of {} %: no material stays elastic so far. Look at the units of loads and sections, N for \
+         kN or mm for m, or give it `model` = \"elastic-plastic\"",
+        to_digits(stress, 3),
+        to_digits(100.0 * strain, 2)
     )
 }
 

@@ -626,6 +626,28 @@ fn dampers_that_stop_a_motion_within_a_step_are_no_energy_growth() {
     assert!(said.contains("dampers have dissipated more"), "{said}");
 }
 
+/// Loads in N of what is meant in kN strain an elastic beam as no material can be: 20 MPa become 20 GPa. Without units nothing is known.
+#[test]
+fn stresses_that_no_material_bears_are_said() {
+    let stretched = |force: f64| {
+        format!(
+            "units = \"SI\"\n{}[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n{}[[supports]]\nat = \"a\"\nfix = \"all\"\n\
+             [[loads]]\nat = \"b\"\nforce = [{force:?}, 0.0, 0.0]\n",
+            OPENING.replace("dynamic", "static"),
+            beam("tie", "\"a\", \"b\"", 1)
+        )
+    };
+    let warns = |text: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("deck.toml"), text).unwrap();
+        let run = Command::cargo_bin("rdsolve").unwrap().current_dir(&folder).args(["deck.toml"]).assert().code(0);
+        String::from_utf8(run.get_output().stderr.clone()).unwrap().contains("no material stays elastic")
+    };
+    // A = 25 cm²: 60 GPa are a strain of 0.29, 60 MPa one of 3e-4.
+    assert!(warns(&stretched(1.5e8)) && !warns(&stretched(1.5e5)));
+    assert!(!warns(&stretched(1.5e8).replace("units = \"SI\"\n", "")));
+}
+
 /// A bolt between two plates may be deeper than long; a beam of metres with a section in millimetres is not.
 #[test]
 fn a_bolt_may_be_as_short_as_it_is_thick() {
@@ -637,6 +659,9 @@ fn a_bolt_may_be_as_short_as_it_is_thick() {
     };
     is_silent(&bolt("0.04"));
     says(&bolt("0.01"), Severity::Warning, &["the section of beam `bolt` is about", "deep, and the beam is 0.01 long"]);
+    // Points in millimetres beside a section in metres.
+    says(&bolt("3000.0"), Severity::Warning, &["beam `bolt` is 3000 long", "times the depth of its section"]);
+    is_silent(&bolt("200.0"));
 }
 
 /// A part that nothing joins to the supported ones falls or stands still; a free scene, a part that flies and one that a load moves are meant.
@@ -648,6 +673,11 @@ fn parts_that_nothing_holds_are_said() {
     let gravity = "[environment]\ngravity = [0.0, 0.0, -9.81]\n";
     says(&held, Severity::Warning, &["nothing joins `stay`", "stands still"]);
     says(&format!("{held}{gravity}"), Severity::Warning, &["nothing joins `stay`", "falls freely"]);
+    // A load does not hold it in statics.
+    let pulled = format!("{held}[[loads]]\nat = \"d\"\nforce = [1.0, 0.0, 0.0]\n");
+    let text = format!("{}{pulled}", OPENING.replace("dynamic", "static"));
+    let (_, said) = model::read(&Source::new("deck.toml", text, &[]));
+    assert!(said.iter().any(|said| said.message.contains("`stay`") && said.message.contains("no static equilibrium")));
     let link = "[[links]]\nname = \"k\"\nfrom = { node = \"b\" }\nto = { node = \"d\" }\nstiffness = 1.0\n";
     let floor = "[[contacts]]\nname = \"floor\"\nwith = \"stay\"\nstiffness = 1e6\ndamping = 1.0\n\
                  surface = { shape = \"plane\", point = [0.0, 0.0, -1.0], normal = [0.0, 0.0, 1.0] }\n";

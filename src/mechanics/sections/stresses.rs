@@ -124,6 +124,11 @@ impl SectionStresses {
         self.centroid
     }
 
+    /// The area.
+    pub fn area(&self) -> f64 {
+        self.area
+    }
+
     /// The points of possibly extreme stresses.
     pub fn outline(&self) -> &SectionOutline {
         &self.outline

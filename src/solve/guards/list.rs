@@ -32,7 +32,7 @@ impl Guards {
                 GuardKind::Links => Box::new(LinkGuard),
                 GuardKind::Jump => Box::new(JumpGuard),
                 GuardKind::Twist => Box::new(TwistGuard),
-                GuardKind::Strain => Box::new(StrainGuard),
+                GuardKind::Strain => Box::new(StrainGuard::default()),
                 GuardKind::Drift => Box::new(DriftGuard),
                 GuardKind::Stability => Box::new(Stability::new(cx)?),
             })

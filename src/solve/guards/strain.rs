@@ -1,15 +1,20 @@
 //! Checks the strain of yielding shells, and the rotations of superelements and reduced parts in their frames: beyond the range of their strain measure
-//! forces are wrong.
+//! forces are wrong. In decks with units it checks the strain of elastic beams, which no material bears: loads have another unit.
 
 use crate::context::Context;
 use crate::guards::guard::{Guard, Taken};
-use crate::tolerances::strain::{BENT, LARGE, LARGE_LOGARITHMIC, LOOKS};
-use crate::warning::{Warnings, bending_error};
+use crate::system::{SectionPoint, judges_stresses, largest_elastic_stress};
+use crate::tolerances::strain::{BENT, BEYOND_ELASTIC, LARGE, LARGE_LOGARITHMIC, LOOKS};
+use crate::warning::{Warning, Warnings, bending_error};
 use crate::workspace::Workspace;
 use mechanics::state::State;
 
 /// Records the largest strain at the end of a step that passes one of a hundred equal parts of the run.
-pub struct StrainGuard;
+#[derive(Default)]
+pub struct StrainGuard {
+    /// Room for the resultants of beams.
+    points: Vec<SectionPoint>,
+}
 
 impl Guard for StrainGuard {
     fn after_step(&mut self, cx: &Context, ws: &mut Workspace, taken: &Taken) {
@@ -17,6 +22,20 @@ impl Guard for StrainGuard {
         let part = |time: f64| (LOOKS * (time - begin) / (end - begin)).floor();
         if part(taken.from) != part(taken.state.time) {
             look(cx, &mut ws.warnings, taken.state);
+            if judges_stresses(cx.model) {
+                self.look_at_beams(cx, &mut ws.warnings, taken.state);
+            }
+        }
+    }
+}
+
+impl StrainGuard {
+    fn look_at_beams(&mut self, cx: &Context, warnings: &mut Warnings, state: &State) {
+        let groups = cx.system.shown_groups();
+        let found = largest_elastic_stress(groups, cx.model, &state.configuration(), &mut self.points);
+        if let Some((part, [stress, strain])) = found.filter(|(_, [_, strain])| *strain > BEYOND_ELASTIC) {
+            let name = cx.model.parts[part].name().to_owned();
+            warnings.add(Warning::BeyondElastic { name, stress, strain });
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The guards that a scene needs.
 
-use crate::system::System;
+use crate::system::{System, judges_stresses};
 use model::{AnalysisKind, Model};
 
 /// Kinds of guards, which refuse steps or warn of them.
@@ -18,7 +18,7 @@ pub enum GuardKind {
     Jump,
     /// Steps of a motion that turn nodes of shells against their elements.
     Twist,
-    /// Shells stretched beyond the validity of their strain measure, and superelements bent beyond that of their matrices.
+    /// Shells stretched beyond their strain measure, superelements bent beyond their matrices, and elastic beams with implausible strain.
     Strain,
     /// Drift of rotations that supports fix alone.
     Drift,
@@ -41,7 +41,7 @@ pub fn choose(model: &Model, system: &System, linear: bool, explicit: bool) -> V
         (GuardKind::Links, !explicit && counts_turns),
         (GuardKind::Jump, !dynamic && !linear),
         (GuardKind::Twist, dynamic && !explicit && !linear && has_shells),
-        (GuardKind::Strain, has_shells || has_floating),
+        (GuardKind::Strain, has_shells || has_floating || judges_stresses(model)),
         (GuardKind::Drift, model.analysis.begin == 0.0 && holds_rotations),
         (GuardKind::Stability, !dynamic && !linear),
     ];

@@ -72,7 +72,9 @@ pub use loads::Loading;
 pub use mass_scaling::{GoverningElement, MassScaling, ScaledPart, added_at, governing};
 pub use mechanics::amplitude::Side;
 pub use multipliers::Multipliers;
-pub use parts::beam_sections::{SectionPlace, SectionPoint, elastic_stresses, renew_stresses};
+pub use parts::beam_sections::{
+    SectionPlace, SectionPoint, elastic_stresses, judges_stresses, largest_elastic_stress, renew_stresses,
+};
 pub use parts::links::LinkState;
 pub use parts::shell_shear::ShearBalance;
 pub use parts::shells::ShellState;

@@ -116,6 +116,31 @@ fn stresses(model: &Model, beam: &Beam, section: usize, at: &IntegrationPoint) -
     }
 }
 
+/// True where stresses of elastic beams are judged: the deck has units.
+pub fn judges_stresses(model: &Model) -> bool {
+    model.output.units.is_some()
+        && model.each::<Beam>().any(|beam| beam.yielding.is_none() && !beam.elements.is_empty())
+}
+
+/// The largest normal stress of beams that stay elastic, with its strain and its part; `points` is room for their resultants.
+pub fn largest_elastic_stress<'g>(
+    groups: impl Iterator<Item = &'g Group>,
+    model: &Model,
+    now: &Configuration,
+    points: &mut Vec<SectionPoint>,
+) -> Option<(usize, [f64; 2])> {
+    section_points(groups, model, now, None, points);
+    let strained = points.iter().filter_map(|point| {
+        let beam = Beam::of(&model.parts[point.part]).filter(|beam| beam.yielding.is_none())?;
+        let section = section_at(beam, point.element, point.place);
+        let modulus = model.stiffnesses[section].N[(0, 0)] / model.stresses[section].as_ref()?.area();
+        let [most, least, ..] = point.at.stresses?.values;
+        let stress = most.max(-least);
+        Some((point.part, [stress, stress / modulus]))
+    });
+    strained.max_by(|(_, a), (_, b)| a[1].total_cmp(&b[1]))
+}
+
 /// Replaces extreme stresses of elastic beams by those of their resultants.
 pub fn renew_stresses(model: &Model, points: &mut [SectionPoint]) {
     for point in points {
