@@ -440,6 +440,7 @@ impl Recorder {
             state,
             step: self.counts.steps,
             dt,
+            error: step.report.error,
             effort: step.effort(),
             due,
             drawn,

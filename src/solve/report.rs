@@ -11,12 +11,14 @@ pub struct StepReport {
     pub residual: f64,
     /// Time at the end of the step.
     pub to: f64,
+    /// The lasting part of its error, as a length. It is 0 where steps follow no tolerance.
+    pub error: f64,
 }
 
 impl StepReport {
     /// A report of nothing, for a step to the time `to`.
     pub fn begin(to: f64) -> StepReport {
-        StepReport { iterations: 0, factorizations: 0, residual: 0.0, to }
+        StepReport { iterations: 0, factorizations: 0, residual: 0.0, to, error: 0.0 }
     }
 
     /// The report of two substeps in a row.

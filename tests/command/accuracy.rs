@@ -97,8 +97,9 @@ fn a_recommended_deck_gives_the_bytes_of_the_run() {
     assert!(text(&none.stderr).contains("--accuracy 1e-3"));
 }
 
-/// Pilot runs on finer meshes keep the long steps of the first. With steps by their own tolerance they took 0.6 of the steps of the run, now 0.2. All runs
-/// take 3795 iterations. They took 4245 with a pilot run for each refinement, and a tolerance that stayed.
+/// Pilot runs on finer meshes keep the long steps of the first. With steps by their own tolerance they took 0.6 of the steps of the run, now 0.2. They damp
+/// the twist of the block away, so their difference to the run does not lengthen later steps. Longer ones made the twist err by 6.7e-3. Now its error
+/// is 1.0e-3, after 4238 iterations of all runs.
 #[test]
 fn pilot_runs_share_long_steps() {
     let folder = tempfile::tempdir().unwrap();
@@ -113,9 +114,12 @@ fn pilot_runs_share_long_steps() {
     assert!(number("/accuracy/pilot_runs") >= 2.0, "{result}");
     let of_pilots = number("/accuracy/pilot_steps") / number("/accuracy/pilot_runs");
     assert!(of_pilots < 0.4 * number("/counts/steps"), "{of_pilots}");
-    assert!(number("/step_error/tolerance") > 1.5 * number("/step_error/asked"), "later steps are longer: {result}");
+    assert_eq!(number("/step_error/tolerance"), number("/step_error/asked"), "{result}");
+    // Half of the true error, and 1.5 times the error asked for.
+    let estimate = number("/step_error/estimate");
+    assert!(estimate > 0.5e-3 && estimate < 1.5e-3, "{result}");
     let others = number("/accuracy/pilot_iterations") + number("/step_error/other_iterations");
-    assert!(others + number("/counts/iterations") < 4000.0, "{result}");
+    assert!(others + number("/counts/iterations") < 4500.0, "{result}");
 }
 
 /// The pilot run with the chosen mesh tells the error of the steps, and the one with the mesh before tells that of the mesh. Comparison runs and a
@@ -134,6 +138,7 @@ fn pilot_runs_tell_the_errors_of_the_run() {
         |path: &str| result.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("{path}: {result}"));
     assert_eq!(number("/mesh/steps"), 0.0, "{result}");
     assert!(number("/step_error/estimate") <= 1.5 * number("/step_error/asked"), "{result}");
+    assert!(number("/step_error/tolerance") > 1.5 * number("/step_error/asked"), "later steps are longer: {result}");
     for path in ["/expectations/0/step_error", "/expectations/0/mesh_error"] {
         assert!(number(path) > 0.0 && number(path) < 2.0, "{path}: {result}");
     }

@@ -252,6 +252,7 @@ impl Extras {
             state,
             step,
             dt: if step == 0 { 0.0 } else { 0.1 },
+            error: 0.0,
             effort: Effort { iterations: 3, refactorizations: 1, residual: 1e-9, cuts: step % 2 },
             due: step.is_multiple_of(2) || step == 10,
             drawn: matches!(model.output.fields, Some(FieldFiles { cadence: Cadence::Steps(every), .. }) if step.is_multiple_of(every))

@@ -22,7 +22,7 @@ pub fn spectrum(scheme: &dyn Scheme, turn: f64) -> Spectrum {
     Spectrum { elongation: turn / phase - 1.0, damping: log / phase.hypot(log) }
 }
 
-/// The ω Δt at which error constants are measured: small, and far above the rounding of eigenvalues.
+/// The ω Δt for error constants: small, and far above the rounding of eigenvalues.
 const TURN: f64 = 0.1;
 
 /// The error constant c of a scheme of order p: a step of smooth motion makes an error c Δtᵖ⁺¹ |q⁽ᵖ⁺¹⁾| of a displacement.

@@ -69,11 +69,12 @@ impl EmbeddedErrorController {
         self.stepper.looks_inside()
     }
 
-    /// Judges the trial motion of a step of `dt` and chooses the next length. Returns the largest motion including it.
+    /// Judges the trial motion of a step of `dt` and chooses the next length. Returns the largest motion including it, and the
+    /// error as a length.
     ///
     /// # Errors
     /// [`Failure::ErrorTooLarge`] where this one was too long.
-    fn judge(&mut self, cx: &Context, ws: &Workspace, dt: f64) -> Result<Size, Failure> {
+    fn judge(&mut self, cx: &Context, ws: &Workspace, dt: f64) -> Result<(Size, f64), Failure> {
         let end_time = cx.model.analysis.duration();
         let mut motion = self.motion;
         let (mut speed, mut spin) = (0.0f64, 0.0f64);
@@ -90,6 +91,7 @@ impl EmbeddedErrorController {
         let error = self.stepper.error(cx, dt);
         let part = |error: f64, of: f64| if error == 0.0 { 0.0 } else { error / of };
         let error = part(error.translation, translation).max(part(error.rotation, rotation));
+        let length = error * translation.max(rotation * cx.length);
         // Errors of steps add up: each may use the share of the tolerance that its length has of the run.
         let ratio = error * end_time / (dt * self.tolerance);
         let [least, most] = GROWTH;
@@ -99,7 +101,7 @@ impl EmbeddedErrorController {
             self.next = self.next.min(SAFETY * dt);
             return Err(Failure::ErrorTooLarge { dt });
         }
-        Ok(motion)
+        Ok((motion, length))
     }
 }
 
@@ -138,7 +140,7 @@ impl StepController for EmbeddedErrorController {
     ) -> Result<Option<StepReport>, Failure> {
         let dt = to - state.time;
         self.stepper.evaluate_stages(cx, ws, state, to)?;
-        let motion = self.judge(cx, ws, dt)?;
+        let (motion, error) = self.judge(cx, ws, dt)?;
         self.start.copy_from(state);
         self.motion_at_start = self.motion;
         let report = self.stepper.accept(cx, ws, state, to)?;
@@ -152,7 +154,7 @@ impl StepController for EmbeddedErrorController {
         }
         // A step refused by contacts or joints has not moved anything, so its motion is no reference for errors.
         self.motion = motion;
-        Ok(Some(report))
+        Ok(Some(StepReport { error, ..report }))
     }
 
     fn cut_back(&mut self, dt: f64) {

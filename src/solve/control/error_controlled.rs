@@ -128,8 +128,9 @@ impl<'a> ErrorController<'a> {
         self.stepper.stages().is_some()
     }
 
-    /// Decides whether a step of `dt` to `time` stands, and chooses the next length.
-    fn judge(&mut self, dt: f64, time: f64, end_time: f64, estimate: &Estimate) -> bool {
+    /// Decides whether a step of `dt` to `time` stands, and chooses the next length. Returns the lasting error of a step that stands, as a
+    /// length.
+    fn judge(&mut self, dt: f64, time: f64, end_time: f64, estimate: &Estimate) -> Option<f64> {
         let part = dt / end_time;
         let ratio = estimate.error / (self.tolerance * part);
         let all = ratio / dt.powi(self.order);
@@ -139,7 +140,7 @@ impl<'a> ErrorController<'a> {
                 dt * if ratio.is_finite() { (SAFETY / ratio).powf(1.0 / f64::from(self.order)).max(0.1) } else { 0.1 };
             self.lasting_intensity = Some(all).filter(|all| all.is_finite());
             (self.covered, self.last) = (0.0, None);
-            return false;
+            return None;
         }
         // Earlier errors count less by the growth of the motion.
         let (before, after) = (self.measure.whole(self.motion), self.measure.whole(estimate.motion));
@@ -150,9 +151,9 @@ impl<'a> ErrorController<'a> {
             |constant: f64, order: i32| (constant * dt.powi(order) * end_time).powf(1.0 / f64::from(order + 1));
         let tau = corner(self.constant, self.order).max(corner(self.of_phase, self.order + 1));
         self.lasting.update(&self.errors[0], factor, dt, tau);
-        let lasting = factor * self.measure.relative(self.lasting.value(), self.motion, time);
-        let lasting = lasting / (self.tolerance * part) / dt.powi(self.order);
-        // The first step is short, and counts as long as it is.
+        let error = factor * self.measure.relative(self.lasting.value(), self.motion, time);
+        let lasting = error / (self.tolerance * part) / dt.powi(self.order);
+        // The first step is short, so it counts little.
         self.covered += part;
         let weight = (part / SPAN.min(self.covered)).min(1.0);
         let update =
@@ -161,7 +162,7 @@ impl<'a> ErrorController<'a> {
         self.lasting_intensity = Some(mean);
         self.intensity = Some(update(self.intensity, all));
         self.choose_length(dt, mean.powf(-1.0 / f64::from(self.order)));
-        true
+        Some(error * self.measure.whole(self.measure.reference(self.motion, time)))
     }
 
     /// Chooses the length of the step after one of `dt`, where `allowed` would just meet the tolerance.
@@ -333,9 +334,9 @@ impl StepController for ErrorController<'_> {
             self.look_ahead(cx, ws, state)?;
             return Ok(None);
         }
-        if self.judge(dt, state.time, cx.model.analysis.duration(), &estimate) {
+        if let Some(error) = self.judge(dt, state.time, cx.model.analysis.duration(), &estimate) {
             self.events.accept([&self.start, state]);
-            return Ok(Some(report));
+            return Ok(Some(StepReport { error, ..report }));
         }
         self.take_back(state);
         (ws.rotation_drift, ws.joint_violation) = (drift, violation);

@@ -68,11 +68,16 @@ impl ErrorMeasure {
         motion.translation.max(motion.rotation * self.extent)
     }
 
-    /// The largest of the errors by node, relative to the largest motion.
-    pub fn relative(&self, errors: &[Vec6], motion: Size, time: f64) -> f64 {
+    /// The motion that errors at this time are relative to.
+    pub fn reference(&self, motion: Size, time: f64) -> Size {
         let early = self.begun.is_some_and(|begun| time < begun + AHEAD * self.end_time);
         let ahead = if early { self.ahead } else { Size::default() };
-        let (translation, rotation) = (motion.translation.max(ahead.translation), motion.rotation.max(ahead.rotation));
+        Size { translation: motion.translation.max(ahead.translation), rotation: motion.rotation.max(ahead.rotation) }
+    }
+
+    /// The largest of the errors by node, relative to the largest motion.
+    pub fn relative(&self, errors: &[Vec6], motion: Size, time: f64) -> f64 {
+        let Size { translation, rotation } = self.reference(motion, time);
         // A NaN must not vanish in the maximum.
         let worst = |most: f64, e: f64| if e > most || e.is_nan() { e } else { most };
         let error = errors.iter().map(|e| linear(e).norm()).fold(0.0, worst);

@@ -2,7 +2,8 @@
 
 use crate::control::{COMPARISONS, comparison_time};
 use crate::frame::Frame;
-use crate::tolerances::trace::{EVENTFUL, FEWEST, MOST_NODES, SLOPE, TELLING, USUAL_STEPS};
+use crate::tolerances::global_error::SATURATED;
+use crate::tolerances::trace::{EVENTFUL, FEWEST, MOST_NODES, OWN_ESTIMATE, SLOPE, TELLING, USUAL_STEPS};
 use base::math::Vec3;
 use base::snapshot::keep;
 use nalgebra::Quaternion;
@@ -22,6 +23,8 @@ pub struct Kept {
     pub ends: Vec<f64>,
     /// The error of a step is proportional to this power of its length.
     pub power: i32,
+    /// The lasting errors of these steps by their own estimate, as lengths; 0 where there is none.
+    pub errors: Vec<f64>,
     /// The longest step.
     pub longest: f64,
     /// The times between which runs are compared.
@@ -34,7 +37,7 @@ pub struct Kept {
     pub changes: Vec<f64>,
 }
 
-keep!(Kept: Default { displacements, rotations, velocities, times, ends, power, longest, between, met_events, tolerance, changes });
+keep!(Kept: Default { displacements, rotations, velocities, times, ends, power, errors, longest, between, met_events, tolerance, changes });
 
 impl Kept {
     /// Keeps the motion where a time of comparison is reached.
@@ -43,6 +46,7 @@ impl Kept {
         let stride = model.nodes.len().div_ceil(MOST_NODES).max(1);
         if self.displacements.capacity() == 0 {
             self.ends.reserve(USUAL_STEPS);
+            self.errors.reserve(USUAL_STEPS);
             self.changes.reserve_exact(COMPARISONS);
             self.displacements.reserve_exact(COMPARISONS * model.nodes.len().div_ceil(stride));
             self.rotations.reserve_exact(COMPARISONS * model.bodies.len());
@@ -74,10 +78,9 @@ impl Kept {
     /// The ratio of the error of another run to the error of this one, from the steps that the runs do not share. The error of a step with
     /// an event is at best proportional to its length, so the ratio of both lengths limits the ratio of both errors.
     pub fn apart(&self, other: &Kept) -> f64 {
-        let sums = self.sums_apart(&other.ends);
-        let apart = self.least_apart(other, ratio_of_errors(sums));
-        let lengths = sums.powf(1.0 / f64::from((self.power - 1).max(1)));
-        if self.meets_events(other) { apart.min(lengths).min(EVENTFUL) } else { apart }
+        let [own, theirs] = self.own_steps(other);
+        let apart = self.least_apart(other, own.apart(&theirs));
+        if self.meets_events(other) { apart.min(own.lengths_apart(&theirs)).min(EVENTFUL) } else { apart }
     }
 
     /// True where this run or another has met events.
@@ -85,23 +88,20 @@ impl Kept {
         self.met_events || other.met_events
     }
 
-    /// Like [`Kept::apart`], for runs without events whose tolerance stays.
-    fn steps_apart(&self, other: &Kept) -> f64 {
-        ratio_of_errors(self.sums_apart(&other.ends))
-    }
-
-    /// The ratio of the sums of the errors of steps that this run does not share with another one, whose steps have these ends.
-    fn sums_apart(&self, ends: &[f64]) -> f64 {
-        let [own, theirs] =
-            [(&self.ends[..], ends), (ends, &self.ends[..])].map(|(run, than)| own_steps(run, than, self.power));
-        if own.left > 0.0 { theirs.left / own.left } else { 1.0 }
+    /// The steps that this run does not share with another one, and the reverse.
+    fn own_steps(&self, other: &Kept) -> [Steps; 2] {
+        [own_steps(self, &other.ends), own_steps(other, &self.ends)]
     }
 
     /// The ratio of the errors so far of a pilot run and this one, without events.
     pub(super) fn apart_so_far(&self, pilot: &Kept) -> f64 {
+        self.least_apart(pilot, self.apart_since(pilot, self.between[0]))
+    }
+
+    /// The ratio of the errors that another run and this one have made since this time.
+    pub(super) fn apart_since(&self, other: &Kept, from: f64) -> f64 {
         let end = self.end();
-        let known = pilot.ends.partition_point(|time| *time <= end + 1e-9 * end.abs());
-        self.least_apart(pilot, ratio_of_errors(self.sums_apart(&pilot.ends[..known])))
+        self.steps_between(from, end).apart(&other.steps_between(from, end))
     }
 
     /// The least of this ratio of the errors over the whole run and of those between changes of the tolerance. The sums over the whole run count
@@ -112,31 +112,28 @@ impl Kept {
         }
         let begins = std::iter::once(self.between[0]).chain(self.changes.iter().copied());
         let ends = self.changes.iter().copied().chain([self.end()]);
-        let rates = begins.zip(ends).map(|(from, to)| other.rate_of_errors(from, to) / self.rate_of_errors(from, to));
+        let rates =
+            begins.zip(ends).map(|(from, to)| self.steps_between(from, to).apart(&other.steps_between(from, to)));
         // No step lies between a change and an end at the same time.
-        rates.filter(|rate| rate.is_finite()).map(ratio_of_errors).fold(whole, f64::min)
+        rates.filter(|rate| rate.is_finite()).fold(whole, f64::min)
     }
 
-    /// The errors of steps per unit of time between two times: the mean of a power of the step.
-    pub(super) fn rate_of_errors(&self, from: f64, to: f64) -> f64 {
+    fn steps_between(&self, from: f64, to: f64) -> Steps {
         let [first, last] = [from, to].map(|time| self.ends.partition_point(|end| *end <= time + 1e-9 * to.abs()));
-        let steps = &self.ends[first.saturating_sub(1)..(last + 1).min(self.ends.len())];
-        let (mut sum, mut time) = (0.0, 0.0);
-        for step in steps.windows(2) {
-            let length = step[1] - step[0];
-            (sum, time) = (sum + length.powi(self.power), time + length);
-        }
-        sum / time
+        let mut steps = Steps::new(self.power);
+        (first.max(1)..(last + 1).min(self.ends.len())).for_each(|end| steps.add(self, end));
+        steps
     }
 
     /// True where the steps of another run are enough longer to tell the error of this one.
     pub fn is_told_by(&self, other: &Kept) -> bool {
-        !self.has_steps_of(other) && self.steps_apart(other) > TELLING
+        let [own, theirs] = self.own_steps(other);
+        !self.has_steps_of(other) && own.sums_apart(&theirs).powf(SLOPE) > TELLING
     }
 
     /// True if most steps equal those of the other run, because something other than the tolerance limits them.
     pub fn has_steps_of(&self, other: &Kept) -> bool {
-        2 * own_steps(&self.ends, &other.ends, self.power).count < self.ends.len().saturating_sub(1)
+        2 * own_steps(self, &other.ends).count < self.ends.len().saturating_sub(1)
     }
 
     /// True if all times of comparison were reached.
@@ -162,6 +159,13 @@ impl Kept {
             times if times < FEWEST => f64::INFINITY,
             times => self.difference_over(other, extent, times),
         }
+    }
+
+    /// True if two runs have nothing in common: they differ too much over three quarters of the times. Later the difference may no longer grow
+    /// with the error of the worse run, but still shows it to a fifth.
+    pub fn has_lost(&self, other: &Kept, extent: f64) -> bool {
+        let times = 3 * self.times.min(other.times) / 4;
+        times > 0 && self.difference_over(other, extent, times) > SATURATED
     }
 
     /// The difference over the first times alone.
@@ -215,33 +219,68 @@ impl Kept {
     }
 }
 
-/// The steps with these ends that another run has not gone; the error of a step is proportional to this power of its length.
-fn own_steps(ends: &[f64], other: &[f64], power: i32) -> OwnSteps {
-    let mut own = OwnSteps { count: 0, left: 0.0 };
+/// The steps of a run that another one, with these ends, has not gone.
+fn own_steps(run: &Kept, other: &[f64]) -> Steps {
+    let mut own = Steps::new(run.power);
     let mut at = 0;
-    for step in ends.windows(2) {
+    for (k, step) in run.ends.windows(2).enumerate() {
         let rounding = 1e-9 * (step[1] - step[0]);
         while other.get(at).is_some_and(|time| *time < step[0] - rounding) {
             at += 1;
         }
         let is = |place: usize, time: f64| other.get(place).is_some_and(|end| (end - time).abs() <= rounding);
         if !(is(at, step[0]) && is(at + 1, step[1])) {
-            own.count += 1;
-            own.left += (step[1] - step[0]).powi(power);
+            own.add(run, k + 1);
         }
     }
     own
 }
 
-/// The ratio of the errors of two runs whose errors of steps have sums in this ratio.
-pub(super) fn ratio_of_errors(sums: f64) -> f64 {
-    sums.powf(SLOPE)
+/// Sums over steps of a run.
+struct Steps {
+    count: usize,
+    power: i32,
+    time: f64,
+    /// Of the power of their lengths that errors follow, and of their errors by their own estimate.
+    left: f64,
+    estimated: f64,
 }
 
-/// Steps that the other run does not share: their number, and the sum of this power of their lengths.
-struct OwnSteps {
-    count: usize,
-    left: f64,
+impl Steps {
+    fn new(power: i32) -> Steps {
+        Steps { count: 0, power, time: 0.0, left: 0.0, estimated: 0.0 }
+    }
+
+    /// Adds the step to this end.
+    fn add(&mut self, run: &Kept, end: usize) {
+        let length = run.ends[end] - run.ends[end - 1];
+        self.count += 1;
+        self.time += length;
+        self.left += length.powi(self.power);
+        self.estimated += run.errors.get(end).copied().unwrap_or_default();
+    }
+
+    /// The ratio of the errors of other steps to those of these. Long steps that damp vibrations away err by their amplitude, whatever the length,
+    /// and their own estimates show it.
+    fn apart(&self, other: &Steps) -> f64 {
+        let estimated = other.estimated / other.time / (self.estimated / self.time);
+        let apart = self.sums_apart(other).powf(SLOPE);
+        if estimated.is_finite() {
+            apart.min(OWN_ESTIMATE * estimated).max(self.lengths_apart(other).min(apart))
+        } else {
+            apart
+        }
+    }
+
+    /// The ratio of the lengths of other steps to those of these.
+    fn lengths_apart(&self, other: &Steps) -> f64 {
+        self.sums_apart(other).powf(1.0 / f64::from((self.power - 1).max(1)))
+    }
+
+    /// The ratio of the sums of the power of lengths, per unit of time.
+    fn sums_apart(&self, other: &Steps) -> f64 {
+        if self.left > 0.0 { other.left / other.time / (self.left / self.time) } else { 1.0 }
+    }
 }
 
 struct Motion(f64, f64);

@@ -4,10 +4,10 @@
 //! the end follows from its growth. A run whose error will be too large ends early. If its error will be far below the one asked for,
 //! the tolerance of the rest of the run rises.
 
-use super::kept::{Kept, ratio_of_errors};
+use super::kept::Kept;
 use crate::control::COMPARISONS;
 use crate::tolerances::global_error::{AIM, FAR_APART, SATURATED, WITHIN};
-use crate::tolerances::look_ahead::{FASTEST, FUTILE, MOST, NEAREST, PREDICTED_AT, WORTH};
+use crate::tolerances::look_ahead::{FASTEST, FUTILE, JUDGED_AT, MOST, NEAREST, PREDICTED_AT, WORTH};
 use crate::tolerances::trace::TELLING;
 use base::snapshot::keep;
 
@@ -88,7 +88,7 @@ impl<'o> LookAhead<'o> {
         let predicted = error * past.powf(-growth);
         // The root mean square over all times is at least this part of that so far.
         let is_lost = error * past.sqrt() > WITHIN * self.asked;
-        let is_futile = run.times == PREDICTED_AT && predicted > FUTILE * self.asked;
+        let is_futile = run.times == JUDGED_AT && predicted > FUTILE * self.asked;
         // A comparison run will judge a run far from the pilot run.
         if self.may_end && apart < FAR_APART && (is_lost || is_futile) {
             self.predicted = Some(predicted);
@@ -99,8 +99,7 @@ impl<'o> LookAhead<'o> {
             return;
         }
         // Recent steps tell the ratio of the errors that this tolerance makes.
-        let recent =
-            ratio_of_errors(self.pilot.rate_of_errors(self.looked, end) / run.rate_of_errors(self.looked, end));
+        let recent = run.apart_since(self.pilot, self.looked);
         self.looked = end;
         if !recent.is_finite() {
             return;

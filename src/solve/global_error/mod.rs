@@ -9,7 +9,7 @@ mod kept;
 mod look_ahead;
 mod trace;
 
-use crate::tolerances::global_error::{AIM, CHANGE, FAR_APART, LOST, SATURATED, WITHIN};
+use crate::tolerances::global_error::{AIM, CHANGE, FAR_APART, LOST, WITHIN};
 pub use kept::Kept;
 pub use look_ahead::LookAhead;
 pub use trace::{Trace, Unseen};
@@ -89,7 +89,7 @@ impl StepError {
     pub fn is_judged_by(&self, run: &Kept, pilot: &Kept, extent: f64) -> bool {
         let (apart, difference) = (run.apart(pilot), run.difference(pilot, extent));
         let estimate = difference / (apart - 1.0);
-        difference <= SATURATED && (apart < FAR_APART || estimate <= WITHIN * self.asked)
+        !pilot.has_lost(run, extent) && (apart < FAR_APART || estimate <= WITHIN * self.asked)
     }
 
     /// Estimates the error from the difference to another run. Returns the tolerance of a further run; `None` where this one is good enough,
@@ -111,7 +111,7 @@ impl StepError {
             return Some(self.without_comparison());
         }
         // Two runs with nothing in common hardly show how much shorter steps must be; several such runs show that no length suffices.
-        let lost = difference > SATURATED;
+        let lost = run.has_lost(other, extent);
         let hopeless = lost && self.others > 2 && before.is_some_and(|before| estimate > 0.5 * before);
         let tolerance = if lost { LOST * self.tolerance } else { self.in_place_of(estimate) };
         ((!nears || estimate > WITHIN * self.asked) && !hopeless).then_some(tolerance)

@@ -42,7 +42,7 @@ pub fn lead(march: &mut March, schedule: &Schedule) -> Result<(), Outcome> {
         take(march, &equations.nodes, &solution, instant);
         warn_of_rotation(march, &solution);
         let (iterations, to) = (1, instant.time);
-        let report = &StepReport { iterations, factorizations, residual: 0.0, to };
+        let report = &StepReport { iterations, factorizations, ..StepReport::begin(to) };
         let (due, compared, last) = (instant.due, instant.compared, index + 1 == all.len());
         let step = AcceptedStep { dt: instant.time, report, cuts: 0, due, compared, last, passed: &[] };
         let name = instant.case.map(|case| (case, march.cx.model.cases.list[case].name.as_str()));
