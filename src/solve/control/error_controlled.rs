@@ -20,6 +20,7 @@ use crate::step::implicit::Implicit;
 use crate::step::size::Size;
 use crate::step::tangent::IterationMatrix;
 use crate::step::trial::Stage;
+use crate::system::kinks::has_kinks;
 use crate::tolerances::error_controlled::{
     FEWEST, FILTERS, MEAN, MEAN_OF_STAGES, RESOLVED, SAFETY, SLIGHT, SPAN, TOO_MUCH, TRIALS, WORTH,
 };
@@ -70,12 +71,14 @@ pub struct ErrorController<'a> {
     errors: [Vec<Vec6>; 2],
     lasting: LastingError,
     events: EventLimit,
+    /// True if forces may have kinks.
+    has_events: bool,
 }
 
 keep!(ErrorController<'_> {
     stepper, tolerance, length, longest, lasting_intensity, intensity, covered, fourth, last, motion, measure, start, inside, errors,
     lasting, events,
- } without { asked, constant, of_phase, order, first, most });
+ } without { asked, constant, of_phase, order, first, most, has_events });
 
 /// An estimated error relative to the largest motion.
 struct Estimate {
@@ -115,6 +118,7 @@ impl<'a> ErrorController<'a> {
             errors: [vec![Vec6::zeros(); nodes], vec![Vec6::zeros(); nodes]],
             lasting: LastingError::new(nodes),
             events: EventLimit::default(),
+            has_events: has_kinks(cx.system),
         }
     }
 
@@ -139,7 +143,11 @@ impl<'a> ErrorController<'a> {
             self.length =
                 dt * if ratio.is_finite() { (SAFETY / ratio).powf(1.0 / f64::from(self.order)).max(0.1) } else { 0.1 };
             self.lasting_intensity = Some(all).filter(|all| all.is_finite());
-            (self.covered, self.last) = (0.0, None);
+            self.last = None;
+            // Errors of an event count on for a while.
+            if !self.has_events {
+                self.covered = 0.0;
+            }
             return None;
         }
         // Earlier errors count less by the growth of the motion.

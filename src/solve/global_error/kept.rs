@@ -112,10 +112,10 @@ impl Kept {
         }
         let begins = std::iter::once(self.between[0]).chain(self.changes.iter().copied());
         let ends = self.changes.iter().copied().chain([self.end()]);
-        let rates =
-            begins.zip(ends).map(|(from, to)| self.steps_between(from, to).apart(&other.steps_between(from, to)));
         // No step lies between a change and an end at the same time.
-        rates.filter(|rate| rate.is_finite()).fold(whole, f64::min)
+        let intervals = begins.zip(ends).filter(|(from, to)| from < to);
+        let apart = |(from, to)| self.steps_between(from, to).apart(&other.steps_between(from, to));
+        intervals.map(apart).fold(whole, f64::min)
     }
 
     fn steps_between(&self, from: f64, to: f64) -> Steps {

@@ -9,7 +9,7 @@ mod kept;
 mod look_ahead;
 mod trace;
 
-use crate::tolerances::global_error::{AIM, CHANGE, FAR_APART, LOST, WITHIN};
+use crate::tolerances::global_error::{AIM, CHANGE, FAR_APART, LOST, SATURATED, WITHIN};
 pub use kept::Kept;
 pub use look_ahead::LookAhead;
 pub use trace::{Trace, Unseen};
@@ -111,7 +111,7 @@ impl StepError {
             return Some(self.without_comparison());
         }
         // Two runs with nothing in common hardly show how much shorter steps must be; several such runs show that no length suffices.
-        let lost = run.has_lost(other, extent);
+        let lost = difference > SATURATED;
         let hopeless = lost && self.others > 2 && before.is_some_and(|before| estimate > 0.5 * before);
         let tolerance = if lost { LOST * self.tolerance } else { self.in_place_of(estimate) };
         ((!nears || estimate > WITHIN * self.asked) && !hopeless).then_some(tolerance)
