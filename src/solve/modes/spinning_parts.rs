@@ -7,6 +7,7 @@ use super::linearized::Linearized;
 use crate::system::FloatingMass;
 use crate::tolerances::gyroscopic::ROUND;
 use base::math::{Mat3, Mat6, Vec3, skew};
+use mechanics::elements::superelement::SuperelementData;
 use model::ReducedPart;
 use nalgebra::DMatrix;
 
@@ -44,9 +45,10 @@ impl SpinningPart {
             arm.cross(&first.omega).norm() <= ROUND * arm.norm() * first.omega.norm()
         });
         let turn = match made {
-            Some(made) => turn_of_shapes(made, &axis).filter(|turn| is_round(made, &axis, turn)),
+            Some(made) => turn_of_shapes(made, &axis),
             None => (count == 0).then(|| DMatrix::zeros(0, 0)),
         };
+        let turn = turn.filter(|turn| is_round(of.element.data(), &axis, turn));
         let warning = (turn.is_none() || !is_on_axis).then(|| {
             format!(
                 "`{}` spins with a part by its matrices that is not symmetric about this axis: modes are those of the current instant. Use a beam with equal \
@@ -89,8 +91,8 @@ fn turn_of_shapes(made: &ReducedPart, axis: &Vec3) -> Option<DMatrix<f64>> {
 }
 
 /// True where a turn about the axis changes neither the stiffness nor the mass.
-fn is_round(made: &ReducedPart, axis: &Vec3, turn: &DMatrix<f64>) -> bool {
-    let size = made.matrices.size();
+fn is_round(of: &SuperelementData, axis: &Vec3, turn: &DMatrix<f64>) -> bool {
+    let size = of.size();
     let placed = size - turn.nrows();
     let mut of_all = DMatrix::zeros(size, size);
     (0..placed / 3).for_each(|i| of_all.fixed_view_mut::<3, 3>(3 * i, 3 * i).copy_from(&(skew(axis) as Mat3)));
@@ -103,5 +105,5 @@ fn is_round(made: &ReducedPart, axis: &Vec3, turn: &DMatrix<f64>) -> bool {
         let scaled = DMatrix::from_fn(size, size, |i, j| change[(i, j)] * scale[i] * scale[j]);
         scaled.amax() <= ROUND
     };
-    is_same(&made.matrices.stiffness) && is_same(&made.matrices.mass)
+    is_same(&of.stiffness) && is_same(&of.mass)
 }

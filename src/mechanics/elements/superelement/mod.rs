@@ -143,6 +143,11 @@ impl FloatingElement {
         FloatingElement { data, x, Y, turning, beta, mass, scratch: Mutex::new(scratch) }
     }
 
+    /// Its nodes and matrices.
+    pub fn data(&self) -> &SuperelementData {
+        &self.data
+    }
+
     /// The nodes of the interface, then those of the amplitudes.
     pub fn nodes(&self) -> &[usize] {
         &self.data.nodes
