@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Mechanisms with a reduced part beside the same with all elements: errors over the number of modes, energy, unknowns and times.
 
-    scripts/reduced.py [--program PROGRAM] [crank] [bars] [plate] [cab]      without names: all
+    scripts/reduced.py [--program PROGRAM] [crank] [bars] [princeton] [plate] [spin] [cab] [exudyn]      without names: all
 
 `crank` is the slider-crank of J. B. Jonker (Multibody Syst. Dyn. 3 (1999)): crank 0.15 m at a constant speed, steel rod 0.3 m long and 6 mm thick, slider
-of half the mass of the rod. `bars` is decks/four_bar with a steel tube as coupler. `plate` is a panel that swings about an edge, `cab` the side blow of
-decks/safety_cab, whose backbone bends.
+of half the mass of the rod. `bars` is decks/four_bar with a steel tube as coupler. `princeton` is the deck of that name. `plate` is a panel that
+swings about two corners, and `spin` one on a hub. `cab` is the side blow of decks/safety_cab, whose backbone bends. `exudyn` needs a Python with exudyn and
+scipy (pip install exudyn scipy).
 """
 
 import argparse
@@ -15,13 +16,18 @@ import math
 import re
 import subprocess
 import tempfile
+import time
 from pathlib import Path
 
 from scenes import PROGRAM, ROOT
 
 STEEL = '[materials.steel]\nmodel = "elastic"\nyoungs_modulus = 2e11\npoisson_ratio = 0.3\ndensity = 7870.0\n'
 SCHEME = '[integrator]\nscheme = "generalized-alpha"\nspectral_radius = 0.9\n'
-NONE = None
+OUTPUT = '[output]\nnodes = "all"\nevery = 4\n'
+
+
+def joint(name: str, one: str, other: str, kind: str = "revolute", axis: str = "[0.0, 0.0, 1.0]") -> str:
+    return f'[[joints]]\nname = "{name}"\nkind = "{kind}"\naxis = {axis}\nfrom = {one}\nto = {other}\n'
 
 
 def beam(ends: tuple[str, str], reduced: str, section: str) -> str:
@@ -44,9 +50,8 @@ end_time = {turns}
 time_step = {turns / 720}
 plane = "off"
 {SCHEME}{STEEL}
-[sections.rod]
-shape = "circle"
-radius = 0.003
+[sections]
+rod = {{ shape = "circle", radius = 0.003 }}
 [points]
 start = [0.15, 0.0, 0.0]
 tip = [0.45, 0.0, 0.0]
@@ -68,35 +73,11 @@ name = "slider"
 center = [0.45, 0.0, 0.0]
 mass = {0.5 * rod}
 inertia = [1e-5, 1e-5, 1e-5]
-[[joints]]
-name = "motor"
-kind = "revolute"
-axis = [0.0, 0.0, 1.0]
-from = {{ ground = [0.0, 0.0, 0.0] }}
-to = {{ body = "crank" }}
-motion = {{ velocity = {speed} }}
-[[joints]]
-name = "knee"
-kind = "revolute"
-axis = [0.0, 0.0, 1.0]
-from = {{ body = "crank", point = [0.15, 0.0, 0.0] }}
-to = {{ node = "start" }}
-[[joints]]
-name = "wrist"
-kind = "revolute"
-axis = [0.0, 0.0, 1.0]
-from = {{ node = "tip" }}
-to = {{ body = "slider" }}
-[[joints]]
-name = "guide"
-kind = "prismatic"
-axis = [1.0, 0.0, 0.0]
-from = {{ ground = [0.45, 0.0, 0.0] }}
-to = {{ body = "slider" }}
-[output]
-nodes = "all"
-every = 4
-"""
+{joint("motor", "{ ground = [0.0, 0.0, 0.0] }", '{ body = "crank" }')}motion = {{ velocity = {speed} }}
+{joint("knee", '{ body = "crank", point = [0.15, 0.0, 0.0] }', '{ node = "start" }')}
+{joint("wrist", '{ node = "tip" }', '{ body = "slider" }')}
+{joint("guide", "{ ground = [0.45, 0.0, 0.0] }", '{ body = "slider" }', "prismatic", "[1.0, 0.0, 0.0]")}
+{OUTPUT}"""
 
 
 def bars(reduced: str) -> str:
@@ -113,20 +94,49 @@ def bars(reduced: str) -> str:
     )
     deck = body.sub("", deck).replace('to = { body = "coupler" }', 'to = { node = "k2" }', 1).replace('to = { body = "coupler" }', 'to = { node = "t2" }')
     deck = deck.replace("[points]\n", "[points]\nk2 = [0.0, 1.0, 0.0]\nt2 = [2.9872189505317297, 2.8238758021269184, 0.0]\n")
-    return deck + SCHEME + STEEL + coupler + '[output]\nnodes = "all"\nevery = 4\n'
+    return deck + SCHEME + STEEL + coupler + OUTPUT
 
 
-def plate(elements: int, modes: int | None) -> str:
-    """A panel of aluminium that swings about an edge held at two corners."""
-    reduced = "" if modes is None else f"reduced = {modes}\n"
+def princeton(reduced: str) -> str:
+    """decks/princeton_beam with 24 elements."""
+    deck = re.sub(r"\[\[expect\]\].*", "", (ROOT / "decks/princeton_beam/deck.toml").read_text(), flags=re.S)
+    key = f"reduced = {reduced}\n" if reduced else ""
+    return deck.replace("elements = 4\n", "elements = 24\n" + key) + OUTPUT
+
+
+SWINGS = """
+[environment]
+gravity = [0.0, 0.0, -9.81]
+[[supports]]
+at = ["a", "d"]
+fix = ["ux", "uy", "uz"]
+"""
+# An edge on a hub that turns about an axis oblique to the panel, at 20 rad/s from 0.4 s on; the panel at rest has 9 Hz.
+SPINS = f"""
+[[bodies]]
+name = "hub"
+center = [0.0, 0.2, 0.0]
+mass = 1.0
+inertia = [1.0, 1.0, 1.0]
+[[attachments]]
+body = "hub"
+nodes = "panel.edge4"
+{joint("motor", "{ ground = [0.0, 0.2, 0.0] }", '{ body = "hub" }', axis="[0.0, 0.8, 0.6]")}motion = {{ amplitude = "spin", acceleration = 100.0 }}
+[amplitudes.spin]
+kind = "sine-squared"
+angular_frequency = 7.853981633974483
+end = 0.4
+"""
+
+
+def plate(elements: int, form: str, rest: str = SWINGS) -> str:
+    """A panel of aluminium that swings about an edge held at two corners, or spins with an edge on a hub."""
     return f"""
 [analysis]
 kind = "dynamic"
-end_time = 0.4
+end_time = {0.4 if rest == SWINGS else 0.6}
 time_step = 1e-3
-{SCHEME}
-[environment]
-gravity = [0.0, 0.0, -9.81]
+{SCHEME}{rest}
 [materials.metal]
 model = "elastic"
 youngs_modulus = 7e10
@@ -140,17 +150,69 @@ d = [0.0, 0.4, 0.0]
 [[shells]]
 name = "panel"
 corners = ["a", "b", "c", "d"]
-elements = [{elements}, {elements}]
+elements = [{elements}, {min(elements, 8) if rest == SPINS else elements}]
 thickness = 0.004
 material = "metal"
-{reduced}
-[[supports]]
-at = ["a", "d"]
-fix = ["ux", "uy", "uz"]
-[output]
-nodes = "all"
-every = 4
-"""
+{form}
+{OUTPUT}"""
+
+
+def exudyn(program: str, modes: int) -> None:
+    """The swinging panel by ObjectFFRFreducedOrder of Exudyn with our matrices, without rotations, by the same method of Craig and Bampton."""
+    import exudyn as exu
+    import numpy as np
+    import scipy
+    from exudyn.FEM import FEMinterface, ObjectFFRFreducedOrderInterface
+    from exudyn.utilities import MarkerBodyPosition, MarkerSuperElementPosition, ObjectGround, SensorSuperElement, SphericalJoint
+
+    ours = {form: Result(program, plate(20, form).replace("every = 4", "every = 1")) for form in ("", f"reduced = {modes}")}
+    with tempfile.TemporaryDirectory() as folder:
+        deck = Path(folder) / "deck.toml"
+        deck.write_text(plate(20, "", ""))
+        subprocess.run([program, "check", deck, "--export-matrices", folder], check=True, stdout=subprocess.DEVNULL)
+        K, M = (scipy.io.mmread(Path(folder) / f"{name}.mtx").toarray() for name in "KM")
+        rows = list(csv.DictReader((Path(folder) / "dofs.csv").open()))
+    moved, turned = ([i for i, row in enumerate(rows) if row["direction"][0] == kind] for kind in "ur")
+    K = K[np.ix_(moved, moved)] - K[np.ix_(moved, turned)] @ np.linalg.solve(K[np.ix_(turned, turned)], K[np.ix_(turned, moved)])
+    M = M[np.ix_(moved, moved)]
+    names = [rows[i]["node"] for i in moved[::3]]
+    places = np.array([ours[""].x[("0.0", name)] for name in names])
+    held = [3 * names.index(name) + axis for name in "ad" for axis in range(3)]
+    inner = [i for i in range(len(moved)) if i not in held]
+    shapes = np.zeros((len(moved), 6 + modes))
+    shapes[held, :6] = np.eye(6)
+    shapes[inner, :6] = -np.linalg.solve(K[np.ix_(inner, inner)], K[np.ix_(inner, held)])
+    shapes[inner, 6:] = scipy.linalg.eigh(K[np.ix_(inner, inner)], M[np.ix_(inner, inner)], subset_by_index=[0, modes - 1])[1]
+    # The first six are the rigid motions, which the frame has.
+    basis = shapes @ scipy.linalg.eigh(shapes.T @ K @ shapes, shapes.T @ M @ shapes)[1][:, 6:]
+    part = FEMinterface()
+    part.nodes, part.modeBasis = {"Position": places}, {"matrix": basis, "type": "HCBmodes"}
+    part.massMatrix, part.stiffnessMatrix = scipy.sparse.csr_matrix(M), scipy.sparse.csr_matrix(K)
+    part.surface = [{"Name": "none", "Trigs": np.zeros((0, 3), int), "Quads": np.zeros((0, 4), int)}]
+    mbs = exu.SystemContainer().AddSystem()
+    panel = ObjectFFRFreducedOrderInterface(part).AddObjectFFRFreducedOrder(mbs, gravity=[0, 0, -9.81])["oFFRFreducedOrder"]
+    ground = mbs.AddObject(ObjectGround())
+    for name in "ad":
+        on_panel = mbs.AddMarker(MarkerSuperElementPosition(bodyNumber=panel, meshNodeNumbers=[names.index(name)], weightingFactors=[1.0]))
+        on_ground = mbs.AddMarker(MarkerBodyPosition(bodyNumber=ground, localPosition=list(places[names.index(name)])))
+        mbs.AddObject(SphericalJoint(markerNumbers=[on_ground, on_panel]))
+    position = {"storeInternal": True, "outputVariableType": exu.OutputVariableType.Position}
+    sensors = {name: mbs.AddSensor(SensorSuperElement(bodyNumber=panel, meshNodeNumber=names.index(name), **position)) for name in "bc"}
+    mbs.Assemble()
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.endTime, settings.timeIntegration.numberOfSteps = 0.4, 400
+    settings.timeIntegration.generalizedAlpha.spectralRadius = 0.9
+    settings.solutionSettings.sensorsWritePeriod, settings.solutionSettings.writeSolutionToFile = 1e-3, False
+    began = time.process_time()
+    mbs.SolveDynamic(settings)
+    print(f"\nExudyn, {modes} modes: {time.process_time() - began:.3f} s")
+    for form, result in ours.items():
+        off = 0.0
+        for (at, name), x in result.x.items():
+            if name in sensors:
+                rows = mbs.GetSensorStoredData(sensors[name])
+                off = max(off, math.dist(rows[np.abs(rows[:, 0] - float(at)).argmin(), 1:], x))
+        print(f"{off / 0.6:.1e} from `{form}`, whose steps take {result.report['timings']['loop_s']:.3f} s")
 
 
 class Result:
@@ -179,7 +241,7 @@ class Result:
     def drift(self) -> float:
         """The largest change of mechanical energy less the work put in and taken, as a part of the largest kinetic energy."""
         balance = [e["mechanical"] - e["external"] for e in self.energies]
-        return max(abs(b - balance[0]) for b in balance) / max(e["kinetic"] for e in self.energies)
+        return max(abs(b - balance[0]) for b in balance) / (max(e["kinetic"] for e in self.energies) or math.inf)
 
 
 def difference(a: Result, b: Result) -> float:
@@ -200,21 +262,24 @@ def table(title: str, program: str, deck, forms: list, size: float) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--program", default=str(PROGRAM))
-    parser.add_argument("scenes", nargs="*", default=["crank", "bars", "plate", "cab"])
+    parser.add_argument("scenes", nargs="*", default=["crank", "bars", "princeton", "plate", "spin", "cab", "exudyn"])
     asked = parser.parse_args()
     pieces = [(f"{modes} modes, {count} pieces", f"{{ modes = {modes}, pieces = {count} }}") for count in (1, 2, 4) for modes in (0, 1, 3, 6)]
-    linear = [(f"{modes} modes, linear", f"{{ modes = {modes}, geometric_stiffness = false }}") for modes in (3, 6)]
-    forms = [("all elements", ""), *pieces, *linear]
+    forms = [("all elements", ""), *pieces, ("6 modes, linear", "{ modes = 6, geometric_stiffness = false }")]
+    panels = [("all elements", ""), ("rigid", "rigid = true"), *((f"{modes} modes", f"reduced = {modes}") for modes in (0, 5, 20, 40))]
     if "crank" in asked.scenes:
         for speed in (30.0, 150.0):
             title = f"Slider-crank at {speed:g} rad/s; errors of places as a part of the rod"
             table(title, asked.program, crank, [(name, speed, reduced) for name, reduced in forms], 0.3)
     if "bars" in asked.scenes:
         table("Four-bar linkage; errors of places as a part of the coupler", asked.program, bars, forms, 3.5)
-    if "plate" in asked.scenes:
-        for elements in (10, 20, 30):
-            forms = [("all elements", elements, NONE)] + [(f"{modes} modes", elements, modes) for modes in (5, 20, 40)]
-            table(f"Panel of {elements} by {elements} elements; errors of places as a part of 0.6 m", asked.program, plate, forms, 0.6)
+    if "princeton" in asked.scenes:
+        more = [("6 modes, 8 pieces", "{ modes = 6, pieces = 8 }")]
+        table("Princeton beam; errors of places as a part of its length", asked.program, princeton, forms[:-1] + more, 0.508)
+    for scene, rest, meshes in (("plate", SWINGS, (10, 20, 30)), ("spin", SPINS, (24,))):
+        for elements in meshes if scene in asked.scenes else ():
+            title = f"Panel that {scene}s, {elements} elements along an edge; errors of places as a part of 0.6 m"
+            table(title, asked.program, plate, [(name, elements, form, rest) for name, form in panels], 0.6)
     if "cab" in asked.scenes:
         print("\nSafety cab, side blow; errors of places as a part of 0.1 m\n\n| backbone | largest error | read s | loop s | iterations |\n|---|---|---|---|---|")
         deck, full = ROOT / "decks/safety_cab/side.toml", None
@@ -223,6 +288,8 @@ def main() -> None:
             result = Result(asked.program, deck, *free, "--set", f"beams.backbone.{form}")
             full = full or result
             print(f"| `{form}` | {difference(full, result) / 0.1:.1e} | {result.timings()} |", flush=True)
+    if "exudyn" in asked.scenes:
+        exudyn(asked.program, 20)
 
 
 main()

@@ -1,7 +1,7 @@
 //! Superelements and reduced parts that spin about an axis of symmetry, as matrices of small motions.
 //!
-//! Amplitudes η belong to shapes φ that turn with the part. Shapes that lie still in space have constant matrices instead: ξ = exp(A Ω t) η, where
-//! e × φ_l = Σ φ_k A_kl. At this instant η = ξ, η̇ = ξ̇ − Ω A ξ and η̈ = ξ̈ − 2 Ω A ξ̇ + Ω² A² ξ.
+//! Amplitudes η belong to shapes φ that turn with the part. Shapes that lie still in space have constant matrices. Their amplitudes are
+//! ξ = exp(A Ω t) η, with e × φ_l = Σ φ_k A_kl. At this instant η = ξ, η̇ = ξ̇ − Ω A ξ and η̈ = ξ̈ − 2 Ω A ξ̇ + Ω² A² ξ.
 
 use super::linearized::Linearized;
 use crate::system::FloatingMass;
