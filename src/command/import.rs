@@ -92,7 +92,7 @@ pub fn import(args: &ImportArgs) -> Result<PathBuf, Exit> {
     write_files(args, true)
 }
 
-/// Imports a file; with `checks`, makes sure that the deck can be run, which a run does by itself.
+/// Imports a file. `checks`: the written deck is read and planned, as a later run does too.
 fn write_files(args: &ImportArgs, checks: bool) -> Result<PathBuf, Exit> {
     let stem = args.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let folder = args.output.clone().unwrap_or_default();

@@ -92,6 +92,11 @@ fn strict_units_and_included_files() {
     let (code, _, problems) = rdsolve(folder.path(), &["import", "edge.inp", "--strict", "--force"]);
     assert_eq!(code, 3, "{problems}");
     assert!(problems.contains("nothing is stabilized by dampers"), "{problems}");
+    // A value that no deck has: the deck stays, for the message shows its line.
+    std::fs::write(folder.path().join("thin.inp"), plain.replace("*Elastic\n", "*Elastic\n-")).unwrap();
+    let (code, _, problems) = rdsolve(folder.path(), &["import", "thin.inp"]);
+    assert!(code == 3 && problems.contains("`youngs_modulus` must be above zero"), "{code} {problems}");
+    assert!(folder.path().join("thin.toml").exists());
     std::fs::remove_file(folder.path().join("nodes.txt")).unwrap();
     assert_eq!(rdsolve(folder.path(), &["import", "edge.inp", "--force"]).0, 6);
 }

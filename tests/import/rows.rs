@@ -500,6 +500,9 @@ fn constraints_of_points() {
     assert!(made.mesh.contains("1, 1, 2\n2, 2, 8\n") && !made.mesh.contains("\n9, "), "{}", made.mesh);
     let pinned = "[[joints]]\nname = \"pin_9_2\"\nkind = \"spherical\"\nfrom = { node = \"mesh.9\" }\nto = { node = \"mesh.2\" }\n";
     has(BEAM, &with("*MPC\nPIN, 9, 2\n*BOUNDARY"), None, pinned);
+    // Nodes apart have the same displacements, in each direction.
+    let alike = "terms = [{ node = \"mesh.2\", dof = \"uz\", factor = -1.0 }, { node = \"mesh.8\", dof = \"uz\", factor = 1.0 }]\n";
+    has(BEAM, &with("*MPC\nPIN, 8, 2\n*BOUNDARY"), None, alike);
     has(BEAM, &with("*MPC\nLINK, 9, 8\n*BOUNDARY"), Some(Dialect::Abaqus), "kind = \"distance\"\n");
     refuses(BEAM, &with("*MPC\nBEAM, 9, 8\n*BOUNDARY"), "say --from abaqus or --from calculix");
     refuses(BEAM, &with("*MPC\nTIE, 8, 2\n*BOUNDARY"), "lie apart");
