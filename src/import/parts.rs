@@ -149,7 +149,9 @@ fn marks(build: &mut Build) -> Vec<BTreeSet<usize>> {
     let targets = if build.im.is_heated() { temperatures::targets(build.im) } else { Vec::new() };
     let mut by_first: HashMap<u64, Vec<usize>> = HashMap::new();
     for (at, cell) in build.mesh.cells.iter().enumerate().take(if targets.is_empty() { 0 } else { usize::MAX }) {
-        cell.nodes.first().map(|node| by_first.entry(*node).or_default().push(at));
+        if let Some(node) = cell.nodes.first() {
+            by_first.entry(*node).or_default().push(at);
+        }
     }
     for target in &targets {
         let nodes = build.mesh.node_ids(&build.im.scopes, target).unwrap_or_default();
