@@ -330,7 +330,7 @@ impl<'d> Expects<'_, 'd> {
         }
     }
 
-    /// Reports a name that has no values; that of a support gets the point whose reaction it is.
+    /// Reports a name without values. For a support the hint names one of its points.
     fn unknown<T>(&mut self, name: &At<String>) -> Option<T> {
         if let Some(node) = self.held_by(name) {
             let message = format!("`{}` is the name of a support, which has no values", name.value);

@@ -43,8 +43,8 @@ pub fn excess_of_mean(system: &System, state: &State, (trial, dt): (&[Node], f64
     -0.5 * work_along(&F, &state.nodes, trial) - taken
 }
 
-/// The excess of the work of the mean forces in a load step whose start is out of balance. Contacts that begin closed and bars that begin
-/// tightened cause it. Their forces at the start fade in the step. Zero if nothing is stored at the start.
+/// The excess of the work of the mean forces in a load step whose start is out of balance, by closed contacts or tightened bars. Their
+/// forces at the start fade in the step. Zero if nothing is stored at the start.
 pub fn excess_at_start(
     model: &Model,
     system: &System,
