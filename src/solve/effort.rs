@@ -1,4 +1,4 @@
-//! The effort of a step.
+//! The effort of a step, and its error.
 
 use base::snapshot::keep;
 
@@ -13,9 +13,11 @@ pub struct Effort {
     pub residual: f64,
     /// Cutbacks before the step was accepted.
     pub cuts: usize,
+    /// The lasting part of the error of the step, as a length. It is 0 where steps follow no tolerance.
+    pub error: f64,
 }
 
-keep!(Effort { iterations, refactorizations, residual, cuts });
+keep!(Effort { iterations, refactorizations, residual, cuts, error });
 
 impl Effort {
     /// The sum of this effort and another one.
@@ -26,6 +28,7 @@ impl Effort {
             refactorizations: self.refactorizations + other.refactorizations,
             residual: self.residual.max(other.residual),
             cuts: self.cuts + other.cuts,
+            error: self.error + other.error,
         }
     }
 }

@@ -19,8 +19,6 @@ pub struct Frame<'a> {
     pub step: usize,
     /// Length of the step that led here; 0 at t = 0.
     pub dt: f64,
-    /// The lasting part of the error of the step, as a length. It is 0 where steps follow no tolerance.
-    pub error: f64,
     /// The effort of the step; at a time inside it, the effort of this time.
     pub effort: Effort,
     /// Number of negative pivots of the last matrix without those of multipliers; arc length only.

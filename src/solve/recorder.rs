@@ -111,8 +111,8 @@ pub struct AcceptedStep<'s> {
 
 impl AcceptedStep<'_> {
     fn effort(&self) -> Effort {
-        let StepReport { iterations, factorizations, residual, .. } = *self.report;
-        Effort { iterations, refactorizations: factorizations, residual, cuts: self.cuts }
+        let StepReport { iterations, factorizations, residual, error, .. } = *self.report;
+        Effort { iterations, refactorizations: factorizations, residual, cuts: self.cuts, error }
     }
 }
 
@@ -440,7 +440,6 @@ impl Recorder {
             state,
             step: self.counts.steps,
             dt,
-            error: step.report.error,
             effort: step.effort(),
             due,
             drawn,

@@ -240,7 +240,7 @@ impl Extras {
             contact_touches: [7, 6, 7].map(|node| ContactTouch { contact: 0, nodes: [0, node], f: p, m: -p }).into(),
             sections: vec![point(0), point(1)],
             // That of two steps, of which the second is due.
-            effort: Effort { iterations: 6, refactorizations: 2, residual: 1e-9, cuts: 1 },
+            effort: Effort { iterations: 6, refactorizations: 2, residual: 1e-9, cuts: 1, error: 0.0 },
             ..Derived::default()
         };
         Extras { reactions: [time, -1.0], derived }
@@ -252,8 +252,7 @@ impl Extras {
             state,
             step,
             dt: if step == 0 { 0.0 } else { 0.1 },
-            error: 0.0,
-            effort: Effort { iterations: 3, refactorizations: 1, residual: 1e-9, cuts: step % 2 },
+            effort: Effort { iterations: 3, refactorizations: 1, residual: 1e-9, cuts: step % 2, error: 0.0 },
             due: step.is_multiple_of(2) || step == 10,
             drawn: matches!(model.output.fields, Some(FieldFiles { cadence: Cadence::Steps(every), .. }) if step.is_multiple_of(every))
                 || step == 10,

@@ -72,7 +72,7 @@ impl Observer for Trace<'_> {
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         if !frame.inside {
             self.kept.ends.push(frame.state.time);
-            self.kept.errors.push(frame.error);
+            self.kept.errors.push(frame.effort.error);
             self.kept.longest = self.kept.longest.max(frame.dt);
         }
         let seen = self.kept.times;
