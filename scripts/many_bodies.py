@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""What scenes of many bodies cost.  scripts/many_bodies.py PROGRAM [--only spheres|chains] [--most N] [--others N] [--keep DIR]
+"""What scenes of many bodies cost.  scripts/many_bodies.py PROGRAM [--only spheres|boxes|chains] [--most N] [--others N] [--keep DIR]
 
 Spheres: N of them, ten layers high, fall into a box of five planes. They touch each other and the planes, with friction and a damper
 that leaves half of the speed of an impact; central differences. Where they are installed, Exudyn computes the same (springs and dampers
 of the same stiffness, explicit Euler steps) and MuJoCo the like (soft contacts of the same frequency and restitution, conjugate
 gradients).
+
+Boxes: the same with cubes that spin; Exudyn has none.
 
 Chains: N bodies, one hung on the other by ball joints, swing under their weight; generalized-alpha and central differences. Exudyn with
 the same implicit step (and its sparse solver), MuJoCo in minimal coordinates.
@@ -29,16 +31,25 @@ DAMPING_RATIO = math.log(2.0) / math.hypot(math.pi, math.log(2.0))
 """Of an impact of two spheres; half of the speed is left."""
 DAMPING = 2.0 * DAMPING_RATIO * math.sqrt(0.5 * STIFFNESS)
 FALL = 0.3
-SPHERE_STEPS = {"rdsolve": 600, "Exudyn": 600, "MuJoCo": 300}
+STEPS = {"spheres": {"rdsolve": 600, "Exudyn": 600, "MuJoCo": 300}, "boxes": {"rdsolve": 2400, "MuJoCo": 1200}}
 """Of the whole time; the second half of it is measured."""
 
 
-def spheres(n):
-    """Centres and velocities, by layers from below, each of mass 1."""
+SOLIDS = {
+    "spheres": (f'{{ kind = "sphere", radius = {RADIUS} }}', f'size="{RADIUS}"'),
+    "boxes": (f'{{ kind = "box", size = {[1.6 * RADIUS] * 3} }}', f'type="box" size="{0.8 * RADIUS} {0.8 * RADIUS} {0.8 * RADIUS}"'),
+}
+"""In the deck, and in MuJoCo."""
+SPIN = {"spheres": 0.0, "boxes": 3.0}
+
+
+def solids(n, spin=0.0):
+    """Centres, velocities and angular velocities, by layers from below, each of mass 1."""
     nx, ny = GRIDS[n]
     rng = random.Random(1)
     centers = [[SPACING * (i + 0.5), SPACING * (j + 0.5), SPACING * (k + 0.5)] for k in range(10) for j in range(ny) for i in range(nx)]
-    return centers, [[rng.uniform(-0.3, 0.3) for _ in range(3)] for _ in centers]
+    random_vectors = lambda most: [[rng.uniform(-most, most) for _ in range(3)] for _ in centers]
+    return centers, random_vectors(0.3), random_vectors(spin)
 
 
 def walls(n):
@@ -56,11 +67,11 @@ def head(scheme, end, steps):
             f"[environment]\ngravity = {GRAVITY}\n[output]\ninterval = {end}\ncontacts = true\n")
 
 
-def deck_of_spheres(n, end, steps):
+def deck_of_solids(kind, n, end, steps):
     lines = [head("central-difference", end, steps), f"[sets]\nballs = [{names(n)}]\n"]
-    for i, (center, velocity) in enumerate(zip(*spheres(n))):
+    for i, (center, velocity, spin) in enumerate(zip(*solids(n, SPIN[kind]))):
         lines.append(f'[[bodies]]\nname = "b{i}"\nmass = 1.0\ncenter = {center}\nvelocity = {velocity}\n'
-                     f'shape = {{ kind = "sphere", radius = {RADIUS} }}\n')
+                     f'angular_velocity = {spin}\nshape = {SOLIDS[kind][0]}\n')
     law = f"stiffness = {STIFFNESS}\ndamping = {DAMPING}\nfriction = {FRICTION}\n"
     for i, (point, normal) in enumerate(walls(n)):
         surface = f'{{ shape = "plane", point = {point}, normal = {normal} }}'
@@ -77,21 +88,21 @@ def state(z, v, w):
     return {"height": sum(z) / len(z), "kinetic": 0.5 * (square(v) + INERTIA * square(w)) / len(z)}
 
 
-def spheres_mujoco(n):
+def solids_mujoco(n, kind="spheres"):
     import mujoco
 
     stiffness = lambda inverse_mass: f'solref="{-STIFFNESS * inverse_mass} {-DAMPING * inverse_mass}"'
-    steps = SPHERE_STEPS["MuJoCo"]
+    steps = STEPS[kind]["MuJoCo"]
     text = [f'<mujoco><option timestep="{FALL / steps}" solver="CG" cone="elliptic" integrator="implicitfast" tolerance="1e-6"/>',
             f'<size memory="4G"/><default><geom condim="3" friction="{FRICTION} 0 0" {stiffness(2.0)}/></default><worldbody>']
     vector = lambda v: " ".join(map(str, v))
     for point, normal in walls(n):
         text.append(f'<geom type="plane" size="0 0 1" priority="1" pos="{vector(point)}" zaxis="{vector(normal)}" {stiffness(1.0)}/>')
-    centers, velocities = spheres(n)
-    text += [f'<body pos="{vector(c)}"><freejoint/><geom size="{RADIUS}" mass="1"/></body>' for c in centers]
+    centers, velocities, spins = solids(n, SPIN[kind])
+    text += [f'<body pos="{vector(c)}"><freejoint/><geom {SOLIDS[kind][1]} mass="1"/></body>' for c in centers]
     model = mujoco.MjModel.from_xml_string("".join(text) + "</worldbody></mujoco>")
     data = mujoco.MjData(model)
-    data.qvel.reshape(-1, 6)[:, :3] = velocities
+    data.qvel.reshape(-1, 6)[:, :3], data.qvel.reshape(-1, 6)[:, 3:] = velocities, spins
     mujoco.mj_step(model, data, steps // 2)
     began = time.process_time()
     mujoco.mj_step(model, data, steps - steps // 2)
@@ -120,7 +131,7 @@ def spheres_exudyn(n):
             [[0, y, 0], [x, y, 0], [x, y, h], [0, y, h]],
         ):
             contact.AddTrianglesRigidBodyBased(ground, pointList=corners, triangleList=[[0, 1, 2], [0, 2, 3]], **law)
-        centers, velocities = spheres(n)
+        centers, velocities, _ = solids(n)
         for c, v in zip(centers, velocities):
             node = mbs.AddNode(NodeRigidBodyRotVecLG(referenceCoordinates=c + [0, 0, 0], initialVelocities=v + [0, 0, 0]))
             mbs.AddObject(ObjectRigidBody(mass=1.0, inertia=InertiaSphere(1.0, RADIUS).GetInertia6D(), nodeNumber=node))
@@ -136,7 +147,7 @@ def spheres_exudyn(n):
         q, v = (np.array(f()).reshape(-1, 6) for f in (mbs.systemData.GetODE2Coordinates, mbs.systemData.GetODE2Coordinates_t))
         return seconds, state((np.array(centers) + q[:, :3])[:, 2].tolist(), v[:, :3].tolist(), v[:, 3:].tolist())
 
-    steps = SPHERE_STEPS["Exudyn"]
+    steps = STEPS["spheres"]["Exudyn"]
     half, (whole, found) = run(FALL / 2, steps // 2)[0], run(FALL, steps)
     return whole - half, found
 
@@ -235,12 +246,13 @@ def chain_exudyn(n):
 
 # ---- runs ----
 
-OTHERS = {"Exudyn": {"spheres": spheres_exudyn, "chain": chain_exudyn}, "MuJoCo": {"spheres": spheres_mujoco, "chain": chain_mujoco}}
+OTHERS = {"Exudyn": {"spheres": spheres_exudyn, "chain": chain_exudyn},
+          "MuJoCo": {"spheres": solids_mujoco, "boxes": lambda n: solids_mujoco(n, "boxes"), "chain": chain_mujoco}}
 
 
 def other(program, scene, n):
     """What the other program finds, by a process of its own, or None."""
-    if importlib.util.find_spec(program.lower()) is None:
+    if importlib.util.find_spec(program.lower()) is None or scene not in OTHERS[program]:
         return None
     command = [sys.executable, "-W", "ignore", __file__, "--other", program, scene, str(n)]
     done = subprocess.run(command, capture_output=True, text=True)
@@ -309,20 +321,20 @@ def print_growth(what, found):
         print(f"{what}: time of a step grows with N^{growth(*zip(*found)):.2f}")
 
 
-def measure_spheres(runs, most, others):
-    print("| spheres | program | step, ms | pairs | µs a step and body | s a simulated s | MB | mean height | kinetic energy of one |")
+def measure_solids(kind, runs, most, others):
+    print(f"| {kind} | program | step, ms | pairs | µs a step and body | s a simulated s | MB | mean height | kinetic energy of one |")
     print("|---|---|---|---|---|---|---|---|---|")
     grown = {}
     for n in (n for n in GRIDS if n <= most):
-        for program, steps in SPHERE_STEPS.items():
+        for program, steps in STEPS[kind].items():
             if program in OTHERS and n > others:
                 continue
             if program == "rdsolve":
-                found = runs.half_and_whole(f"spheres_{n}", lambda end, steps: deck_of_spheres(n, end, steps), n, FALL, steps)
+                found = runs.half_and_whole(f"{kind}_{n}", lambda end, steps: deck_of_solids(kind, n, end, steps), n, FALL, steps)
                 rows = last_rows(found["out"] / "bodies.csv")
                 found |= state([float(row["z"]) for row in rows], *([numbers(row, keys) for row in rows] for keys in (VELOCITY, TURNING)))
                 found["pairs"] = next(row["touching"] for row in last_rows(found["out"] / "contacts.csv") if row["contact"] == "pairs")
-            elif not (found := other(program, "spheres", n)):
+            elif not (found := other(program, kind, n)):
                 print(f"| {n} | {program} | not installed, or failed |")
                 continue
             step = found["seconds"] / (steps / 2)
@@ -373,7 +385,7 @@ def measure_chains(runs, most, others):
 def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     p.add_argument("program", nargs="?")
-    p.add_argument("--only", choices=["spheres", "chains"])
+    p.add_argument("--only", choices=["spheres", "boxes", "chains"])
     p.add_argument("--most", type=int, default=30_000)
     p.add_argument("--others", type=int, default=10_000)
     p.add_argument("--keep", type=pathlib.Path)
@@ -387,9 +399,9 @@ def main():
         if a.keep:
             a.keep.mkdir(parents=True, exist_ok=True)
         runs = Runs(a.program, a.keep or pathlib.Path(folder))
-        for name, measure in (("spheres", measure_spheres), ("chains", measure_chains)):
+        for name in ("spheres", "boxes", "chains"):
             if a.only in (None, name):
-                measure(runs, a.most, a.others)
+                measure_chains(runs, a.most, a.others) if name == "chains" else measure_solids(name, runs, a.most, a.others)
                 print()
 
 

@@ -59,7 +59,7 @@ pub fn connectors(build: &mut Build) {
                 }
             };
             if let Some(table) = table {
-                if is_joint(&kind) && ["stiffness", "motion", "effort"].iter().any(|key| table.has(key)) {
+                if is_joint(&kind) && ["stiffness", "limits", "motion", "effort"].iter().any(|key| table.has(key)) {
                     refuse_later_coordinate(build, at);
                 }
                 build.deck.add_in(table, build.timeline.stages_of_cell(at));
@@ -136,6 +136,20 @@ pub fn refuse_one_place(build: &mut Build, line: usize, [a, b]: [u64; 2]) -> boo
     is_one
 }
 
+/// Refuses two nodes that lie apart, between which the deck has no joint; returns whether they do.
+fn refuse_apart(build: &mut Build, line: usize, [a, b]: [u64; 2]) -> bool {
+    const APART: f64 = 1e-4; // of the mesh; the deck's own check is sharper
+    let lies = |id: &u64| *id != 0 && build.mesh.has(*id);
+    let apart = [a, b].iter().all(lies) && (build.mesh.x(a) - build.mesh.x(b)).amax() > APART * build.mesh.size();
+    if apart {
+        let why = format!(
+            "nodes {a} and {b} lie apart, and the ends of a joint lie at one place: move one, or carry it by a rigid body"
+        );
+        build.im.refuse(line, &why);
+    }
+    apart
+}
+
 /// A joint between two nodes.
 fn joint(
     build: &mut Build,
@@ -143,7 +157,11 @@ fn joint(
     joint: &JointOf,
     (name, [a, b]): (&str, [u64; 2]),
 ) -> Option<DeckTable> {
-    if joint.word == "distance" && refuse_one_place(build, section.line, [a, b]) {
+    let refused = match joint.word {
+        "distance" => refuse_one_place(build, section.line, [a, b]),
+        _ => refuse_apart(build, section.line, [a, b]),
+    };
+    if refused {
         return None;
     }
     let [first, plane] = axes(build, section);
@@ -160,6 +178,7 @@ fn joint(
         table = table.numbers("cross_axis", first.cross(&plane).normalize().as_slice());
     }
     let behavior = behavior(build, section);
+    let mut acts = false;
     for component in 0..6 {
         let [stiffness, damping] = [behavior.stiffness[component], behavior.damping[component]];
         if stiffness.is_none() && damping.is_none() && behavior.stops[component].is_none() {
@@ -172,8 +191,12 @@ fn joint(
             );
             continue;
         }
+        if std::mem::replace(&mut acts, true) {
+            build.im.refuse(section.line, "a joint has one coordinate, and here two components have a behaviour");
+            continue;
+        }
         if let Some(limits) = behavior.stops[component] {
-            table = stops(build, section, joint, table, (component, limits, [a, b]));
+            table = stops(build, section, joint, table, (component, limits));
         }
         if joint.word == "cylindrical" {
             table = table.text("coordinate", if component == 0 { "distance" } else { "angle" });
@@ -184,18 +207,16 @@ fn joint(
     Some(drives(build, section, joint, table, [a, b]))
 }
 
-/// Adds stops, which are stiff springs. Positions along an axis count from the first node in the file, coordinates from t = 0 in the deck.
+/// Adds stops, which are stiff springs. Both nodes are at one place at t = 0, so positions are coordinates.
 fn stops(
     build: &mut Build,
     section: &ConnectorSection,
     joint: &JointOf,
     table: DeckTable,
-    (component, limits, [a, b]): (usize, [f64; 2], [u64; 2]),
+    (component, [low, high]): (usize, [f64; 2]),
 ) -> DeckTable {
-    let (size, [first, _]) = (build.mesh.size(), axes(build, section));
+    let size = build.mesh.size();
     let stiffness = build.rigid_stiffness() * if component > 2 { size * size } else { 1.0 };
-    let start = if component > 2 { 0.0 } else { (build.mesh.x(b) - build.mesh.x(a)).dot(&first) };
-    let [low, high] = limits.map(|limit| limit - start);
     if !["revolute", "prismatic", "cylindrical", "in-line"].contains(&joint.word) || stiffness == 0.0 {
         build.im.refuse(
             section.line,
@@ -306,7 +327,7 @@ fn bushing(build: &mut Build, section: &ConnectorSection, name: &str, [a, b]: [u
         .value("axes", list(axes.iter().map(|axis| vector(axis.as_slice()))))
 }
 
-/// Refuses the changes of a joint with a spring or a drive that is not there from the first stage on: its coordinate has no origin.
+/// Refuses the changes of a joint with a spring, a stop or a drive that is not there from the first stage on: its coordinate has no origin.
 fn refuse_later_coordinate(build: &mut Build, cell: usize) {
     let Some(acts) = build.timeline.acting.get(&cell) else { return };
     let acting: Vec<bool> = build.timeline.stages.iter().map(|stage| acts[stage.step]).collect();
@@ -315,7 +336,7 @@ fn refuse_later_coordinate(build: &mut Build, cell: usize) {
     }
     let changes: Vec<ModelChange> =
         build.im.steps.list.iter().flat_map(|card| card.changes.clone()).filter(|change| !change.is_pair).collect();
-    let why = "a joint with a spring or a drive does not come in a later step: leave it in all steps, with a drive that is zero until then";
+    let why = "a joint with a spring, a stop or a drive does not come in a later step: leave it in all steps, with a drive that is zero until then";
     for change in changes {
         if change.targets.iter().any(|target| build.cells(target).contains(&cell)) {
             build.im.refuse(change.line, why);

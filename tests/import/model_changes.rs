@@ -54,6 +54,8 @@ fn stages_of_links_and_joints() {
     assert_eq!(changed(&comes(line, "ADD=WITH STRAIN")), [""; 0]);
     refuses(&comes(SPRING.1, "ADD=STRAIN FREE"), &[], "springs along axes have no force where the mesh");
     assert_eq!(changed(&comes(&line.replace("SPRING", "DASHPOT"), "ADD")), [""; 0]);
+    // The nodes of a joint lie at one place.
+    let comes = |element: &str, how: &str| comes(element, how).replace("9, 0., 0., 1.", "9, 1., 0., 0.");
     let joint = "*ELEMENT, TYPE=CONN3D2, ELSET=k\n7, 2, 9\n*CONNECTOR SECTION, ELSET=k\nHINGE\n*BOUNDARY";
     assert_eq!(changed(&comes(joint, "ADD")), [""; 0]);
     assert!(changed(&comes(joint, "ADD=WITH STRAIN"))[0].contains("as the step finds them"));
@@ -62,9 +64,12 @@ fn stages_of_links_and_joints() {
         "SECTION, ELSET=k",
         "BEHAVIOR, NAME=b\n*CONNECTOR ELASTICITY, COMPONENT=4\n3.\n*CONNECTOR SECTION, ELSET=k, BEHAVIOR=b",
     );
-    refuses(&comes(&sprung, "ADD"), &[], "a joint with a spring or a drive");
+    refuses(&comes(&sprung, "ADD"), &[], "a joint with a spring, a stop or a drive");
     assert_eq!(
-        refusals(&imported(&(edited(BEAM, &[("*BOUNDARY", &sprung)]) + &step("*MODEL CHANGE, REMOVE\nk\n")))),
+        refusals(&imported(
+            &(edited(BEAM, &[("*BOUNDARY", &sprung), ("9, 0., 0., 1.", "9, 1., 0., 0.")])
+                + &step("*MODEL CHANGE, REMOVE\nk\n"))
+        )),
         [""; 0]
     );
     // CalculiX makes strains of solids residual by a word that stands alone.

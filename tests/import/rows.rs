@@ -501,8 +501,12 @@ fn constraints_of_points() {
     let pinned = "[[joints]]\nname = \"pin_9_2\"\nkind = \"spherical\"\nfrom = { node = \"mesh.9\" }\nto = { node = \"mesh.2\" }\n";
     has(BEAM, &with("*MPC\nPIN, 9, 2\n*BOUNDARY"), None, pinned);
     // Nodes apart have the same displacements, in each direction.
-    let alike = "terms = [{ node = \"mesh.2\", dof = \"uz\", factor = -1.0 }, { node = \"mesh.8\", dof = \"uz\", factor = 1.0 }]\n";
-    has(BEAM, &with("*MPC\nPIN, 8, 2\n*BOUNDARY"), None, alike);
+    for dof in ["ux", "uy", "uz"] {
+        let alike = format!(
+            "terms = [{{ node = \"mesh.2\", dof = \"{dof}\", factor = -1.0 }}, {{ node = \"mesh.8\", dof = \"{dof}\", factor = 1.0 }}]\n"
+        );
+        has(BEAM, &with("*MPC\nPIN, 8, 2\n*BOUNDARY"), None, &alike);
+    }
     has(BEAM, &with("*MPC\nLINK, 9, 8\n*BOUNDARY"), Some(Dialect::Abaqus), "kind = \"distance\"\n");
     refuses(BEAM, &with("*MPC\nBEAM, 9, 8\n*BOUNDARY"), "say --from abaqus or --from calculix");
     refuses(BEAM, &with("*MPC\nTIE, 8, 2\n*BOUNDARY"), "lie apart");
@@ -560,6 +564,15 @@ fn connectors() {
         None,
         "stiffness = 7.0\ndamping = 8.0\n",
     );
+    // The axis of a slot points the other way.
+    let stop = "*CONNECTOR STOP, COMPONENT=1\n-0.2, 0.5\n";
+    has(&with("TRANSLATOR", stop), &[], None, "limits = [-0.2, 0.5]\n");
+    has(&with("SLOT", stop), &[], None, "limits = [-0.5, 0.2]\n");
+    refuses(&with("TRANSLATOR", &stop.replace("-0.2", "0.2")), &[], "begins beyond its stops");
+    refuses(&with("TRANSLATOR", stop), &[("9, 1., 0., 0.", "9, 1., 0.3, 0.")], "nodes 2 and 9 lie apart");
+    refuses(&with("PLANAR", stop), &[], "along component 1");
+    let both = "*CONNECTOR ELASTICITY, COMPONENT=1\n7.\n*CONNECTOR ELASTICITY, COMPONENT=4\n7.\n";
+    refuses(&with("CYLINDRICAL", both), &[], "two components have a behaviour");
     refuses(&with("HINGE", "*CONNECTOR ELASTICITY, COMPONENT=1\n7.\n"), &[], "along component 1");
     refuses(&with("FLEXION-TORSION", ""), &[], "FLEXION-TORSION are not translated");
     let bushing = "bushing = [7.0, 0.0, 0.0, 0.0, 0.0, 0.0]\nbushing_damping = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]\naxes = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]\n";
