@@ -283,7 +283,10 @@ fn write(path: &Path, text: &str) -> Result<(), Exit> {
 fn check(deck: &Path) -> Result<(), Exit> {
     let checked = load(deck, &[], Vec::new()).and_then(|mut loaded| plan(&mut loaded, 1));
     if checked.is_err() {
-        say(&format!("  help: comments above the tables of `{}` name their lines in the file", deck.display()));
+        say(&format!(
+            "  help: comments above the tables of `{}` name their lines in the file; --force replaces the deck",
+            deck.display()
+        ));
     }
     checked.map(drop)
 }
