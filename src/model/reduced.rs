@@ -5,7 +5,7 @@
 
 mod connected;
 
-use super::data::{Beam, LoadOrigin, Model, Node, OwnDamping, Part, PartType, Reduction};
+use super::data::{Beam, EQUAL_MODES, LoadOrigin, Model, Node, OwnDamping, Part, PartType, Reduction};
 use super::plausibility::unused::visit_actors;
 use super::report::Report;
 use base::diagnostic::{At, Span};
@@ -217,7 +217,7 @@ fn reduction(
         Some(elements) => format!("{}, elements {} to {}", of.name, elements.start + 1, elements.end),
         None => of.name.clone(),
     };
-    let amplitudes = amplitudes(model, &label, interface[0], (extent.modes + RIGID_LOADS).min(most));
+    let amplitudes = amplitudes(model, &label, interface[0], (extent.modes + EQUAL_MODES + RIGID_LOADS).min(most));
     let Extent { modes, up_to, geometric, .. } = *extent;
     Some(Reduction { interface, inner, amplitudes, modes: modes.min(most), up_to, geometric, damping, ..piece })
 }

@@ -150,9 +150,30 @@ fn frequencies_converge_from_above() {
         assert!(near.iter().zip(&full).all(|pair| error(pair) > -1e-8), "{near:?} {full:?}");
         error((&near[3], &full[3]))
     });
-    let falls = errors.windows(2).all(|pair| pair[1] < pair[0]);
-    // Measured 9e-7 without modes, by static shapes of inertia loads alone, and 1.4e-8.
+    // The first modes are nearly among the static shapes of inertia loads, which alone err by 9e-7. Others follow with 1.6e-7 and 1.4e-8.
+    let falls = errors[1] < errors[0] && errors[2] < 0.3 * errors[1] && errors[3] < 0.15 * errors[2];
     assert!(falls && errors[0] < 2e-6 && errors[3] < 3e-8, "{errors:?}");
+}
+
+/// The second and third mode of a stubby square tube are a pair, and stay one; nodes that were reserved in vain belong to nothing.
+#[test]
+fn equal_frequencies_stay_together() {
+    let metal = PLATE.split("[points]").next().unwrap_or_default();
+    let mut text = format!("[analysis]\nkind = \"modal\"\nmodes = 1\n{metal}[points]\n");
+    for (name, x, y) in [("a", 0.0, 0.0), ("b", 0.2, 0.0), ("c", 0.2, 0.2), ("d", 0.0, 0.2)] {
+        text += &format!("{name} = [{x:?}, {y:?}, 0.0]\n{name}1 = [{x:?}, {y:?}, 0.3]\n");
+    }
+    for (a, b) in [("a", "b"), ("b", "c"), ("c", "d"), ("d", "a")] {
+        text += &format!(
+            "[[shells]]\nname = \"{a}{b}\"\ncorners = [\"{a}\", \"{b}\", \"{b}1\", \"{a}1\"]\nelements = [2, 3]\nthickness = 0.02\nmaterial = \"metal\"\n\
+             [[supports]]\nat = \"{a}{b}.edge1\"\nfix = \"all\"\n"
+        );
+    }
+    text += "[[parts]]\nname = \"tube\"\nparts = [\"ab\", \"bc\", \"cd\", \"da\"]\nreduced = 2\n";
+    let model = read_deck(&text);
+    let made = model.reductions[0].made.as_ref().expect("matrices");
+    assert_eq!((made.frequencies.len(), made.inertia_shapes), (3, 12));
+    assert!(model.nodes.iter().all(|node| node.is_number || !node.label.is_empty()));
 }
 
 /// A free part has six motions without stiffness; the other frequencies are those of its matrices and those of the whole part.
@@ -211,7 +232,7 @@ fn a_free_part_keeps_its_velocity() {
     let text = plate(1.0, 0.01, "velocity = [1.0, -2.0, 3.0]");
     let model = read_deck(&text);
     let end = last(&model, &mut places);
-    let start = model.nodes.iter().filter(|node| node.v != rdsolve::math::Vec3::zeros()).flat_map(|node| {
+    let start = model.nodes.iter().filter(|node| !node.is_number).flat_map(|node| {
         let x = node.x + rdsolve::math::Vec3::new(1.0, -2.0, 3.0);
         [x.x, x.y, x.z]
     });

@@ -58,7 +58,7 @@ pub use node::{Body, DIRECTIONS, Mass, Node};
 pub use output::{Cadence, Drift, FieldFiles, FieldFormat, Output, round_up};
 pub use part::{Part, PartType, quantities_of};
 pub use part_answers::{Drawing, LineElement, LinearSpring, NodalAction, NodeWeights};
-pub use reduction::{ReducedPart, Reduction};
+pub use reduction::{EQUAL_MODES, ReducedPart, Reduction};
 pub use response::{AroundResonances, ResponseAsked, ResponseMethod};
 pub use shell::{Shell, ShellElement};
 pub use stage::{Actors, RunStage, Stop, StopQuantity};

@@ -6,6 +6,9 @@ use mechanics::elements::superelement::{InertiaIntegrals, SuperelementData};
 use std::ops::Range;
 use std::sync::Arc;
 
+/// The most modes of a reduced part beyond the number in the deck. They have the frequency of the last.
+pub const EQUAL_MODES: usize = 2;
+
 /// Parts with a common superelement, which acts on the interface in place of their elements.
 #[derive(Debug, Clone)]
 pub struct Reduction {

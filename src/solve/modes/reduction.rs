@@ -1,8 +1,9 @@
 //! Reduced parts: their stiffness and mass over the motions of the interface and modes with a fixed interface.
 //!
 //! The static shapes Ψ are the motions of inner nodes, without inertia, by unit motions of the interface; the modes φ have a fixed interface.
-//! Static responses to rigid inertia loads join them (`inertia_shapes`). With Φ = [Ψ φ] the matrices are Φᵀ K Φ and Φᵀ M Φ (R. R. Craig, M. C. C. Bampton, AIAA J. 6 (1968) 1313-1319). They keep the rigid motions,
-//! the static stiffness and the mass of the part. K and M are those of the part at t = 0, without loads.
+//! Static responses to rigid inertia loads join them (`inertia_shapes`). With Φ = [Ψ φ] the matrices are Φᵀ K Φ and Φᵀ M Φ. They keep the
+//! rigid motions, the static stiffness and the mass of the part. K and M are those of the part at t = 0, without loads.
+//! Source: R. R. Craig, M. C. C. Bampton, AIAA J. 6 (1968) 1313-1319.
 
 use super::alike::{Known, Likeness, may_be_like_another};
 use super::fault::ModesFault;
@@ -23,8 +24,8 @@ use mechanics::elements::superelement::{
 };
 use mechanics::state::{Node, State};
 use model::{
-    AnalysisKind, Constraints, Damping, LoadCases, Loading as ModelLoading, ModeExtent, Model, ModesAsked, ReducedPart,
-    Reduction, Restraint, StepLength, SuperelementMatrices, settle,
+    AnalysisKind, Constraints, Damping, EQUAL_MODES, LoadCases, Loading as ModelLoading, ModeExtent, Model, ModesAsked,
+    ReducedPart, Reduction, Restraint, StepLength, SuperelementMatrices, settle,
 };
 use nalgebra::DMatrix;
 use std::f64::consts::TAU;
@@ -55,11 +56,10 @@ pub fn reduce(models: &mut [&mut Model]) -> Result<(), Vec<Diagnostic>> {
     if problems.is_empty() { Ok(()) } else { Err(problems) }
 }
 
-/// Gives a model the matrices of a reduced part. Nodes beyond its amplitudes are left without one, and without a name.
+/// Gives a model the matrices of a reduced part. Nodes beyond its amplitudes lose their names, and have no unknown.
 fn keep(model: &mut Model, index: usize, made: &Arc<ReducedPart>) {
     let Some(of) = model.reductions.get_mut(index) else { return };
     for node in of.amplitudes.drain(made.matrices.amplitudes()..) {
-        model.nodes[node].is_number = false;
         model.nodes[node].label.clear();
     }
     of.made = Some(made.clone());
@@ -201,13 +201,13 @@ fn inner_modes(pencil: &mut Pencil, of: &Reduction) -> Result<InnerModes, String
         return Ok(InnerModes { kept: Vec::new(), next: None });
     }
     let with_mass = (0..own).filter(|&row| pencil.mass.row(row).any(|(_, mass)| mass != 0.0)).count();
-    let count = (asked + 2).min(with_mass);
+    let count = (asked + EQUAL_MODES).min(with_mass);
     let mut kept = natural_pairs(pencil, ModeExtent::Count(count)).map_err(|fault| words(&fault))?;
     let frequency = |square: f64| square.max(0.0).sqrt() / TAU;
     let within = kept.iter().take(asked).filter(|(square, _)| of.up_to.is_none_or(|most| frequency(*square) <= most));
     let mut within = within.count();
-    // Pairs stay whole, so that a round part has the same shapes in all directions.
-    if within == asked && kept.get(asked).is_some_and(|(next, _)| *next <= (1.0 + PAIR) * kept[asked - 1].0) {
+    // Equal frequencies stay together, so that a round part has the same shapes in all directions.
+    while within > 0 && kept.get(within).is_some_and(|(next, _)| *next <= (1.0 + PAIR) * kept[within - 1].0) {
         within += 1;
     }
     let next = kept.get(within).map(|(square, _)| frequency(*square));

@@ -64,10 +64,12 @@ pub fn classify(model: &Model, system: &System) -> Vec<NodeStatus> {
             }
         }
     }
-    // A number is no way in space, whatever the plane.
+    // A number is no way in space, whatever the plane; one without a name belongs to nothing.
     for node in model.number_nodes() {
         statuses[node] = [DofStatus::Unused; 6];
-        statuses[node][0] = DofStatus::Unknown;
+        if !model.nodes[node].label.is_empty() {
+            statuses[node][0] = DofStatus::Unknown;
+        }
     }
     for dependent in &model.constraints.dependents {
         for dof in (0..6).filter(|&d| dependent.dofs[d]) {
