@@ -759,6 +759,8 @@ pub mod gyroscopic {
     pub const STEP: f64 = 1e-4;
     /// Difference of the shapes of a round part and those turned about its axis, as a part of these: rounding of pairs of modes.
     pub const ROUND: f64 = 1e-6;
+    /// Sine of the angle between the spin and an axis of symmetry below which the part spins about that axis. Shafts sag by less.
+    pub const SAG: f64 = 0.01;
     /// An asymmetry below this part is rounding.
     pub const SYMMETRIC: f64 = 1e-9;
     /// Part of a mode's kinetic energy across the axis of a rotation below which its Coriolis forces change the frequency by no more than such a part.
@@ -1017,7 +1019,8 @@ pub mod reduction {
     pub const UNLOADED: f64 = 1e-9;
     /// Eigenvalue of the energies of inertia loads below which a combination of them has no shape. Loads that differ by rotary inertia share one.
     pub const REPEATED: f64 = 1e-6;
-    /// Least missing part of the energy of an inertia load for a static shape. Stretching has more beside bending.
+    /// Least missing part of the energy of an inertia load for a static shape. Stretching has more beside bending; a beam of 2000 elements has
+    /// rounding of 1e-15 there.
     pub const LACKING: f64 = 1e-9;
     /// Unknowns of an interface that are few, even if they are more than the unknowns inside.
     pub const FEW: usize = 300;

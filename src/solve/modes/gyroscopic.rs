@@ -7,8 +7,8 @@ use super::linearized::Linearized;
 use super::mode::EigenMode;
 use super::spinning_parts::spinning_parts;
 use crate::system::{ConsistentMass, dependents};
-use crate::tolerances::gyroscopic::{ORBIT, SYMMETRIC};
-use base::math::{Mat6, Vec3, angular, linear, skew};
+use crate::tolerances::gyroscopic::{ORBIT, SAG, SYMMETRIC};
+use base::math::{Mat3, Mat6, Vec3, angular, linear, skew};
 use std::collections::BTreeMap;
 
 /// The rows and columns of two nodes.
@@ -30,14 +30,8 @@ impl Gyroscopic {
         let mut gyroscopic = Gyroscopic { blocks: Vec::new(), momentum: Vec3::zeros(), warnings: Vec::new() };
         let mut sums = Sums::new(at);
         sums.add_coriolis(at);
-        let links = &at.system.rigid_links;
         for inertia in &at.system.inertias {
-            let mut root = inertia.node;
-            let mut arm = false;
-            while let Some(link) = links.iter().find(|link| link.node == root && link.rigid) {
-                arm |= link.S0.norm() > 0.0;
-                root = link.master;
-            }
+            let (root, arm) = at.root(inertia.node);
             let node = &at.state.nodes[root];
             let omega = node.omega;
             if !at.spins(&omega) {
@@ -55,10 +49,13 @@ impl Gyroscopic {
                 continue;
             }
             let J = inertia.J(node);
-            let momentum = J * omega;
+            let varies = |omega: &Vec3| skew(omega) * J - J * skew(omega);
+            let is_round = |omega: &Vec3| varies(omega).norm() <= SYMMETRIC * (J * omega).norm();
+            let near = [omega, along_principal_axis(J, &omega)].into_iter().find(is_round);
+            let omega = near.unwrap_or(omega);
+            let (momentum, varies) = (J * omega, varies(&omega));
             gyroscopic.momentum += momentum;
-            let varies = skew(&omega) * J - J * skew(&omega);
-            if varies.norm() > SYMMETRIC * momentum.norm() {
+            if near.is_none() {
                 gyroscopic.warnings.push(format!(
                     "`{}` is not symmetric about its spin axis: its inertia varies as it rotates, and modes are those of the current instant. Give it equal \
                      moments of `inertia` about both other axes, or compute the motion with `kind = \"dynamic\"`",
@@ -142,6 +139,16 @@ impl Gyroscopic {
             }
         }
     }
+}
+
+/// An angular velocity turned to the principal axis beside it. Sag turns that axis from the spin.
+fn along_principal_axis(J: Mat3, omega: &Vec3) -> Vec3 {
+    let axes = J.symmetric_eigen().eigenvectors;
+    let along = axes
+        .column_iter()
+        .map(|axis| axis * axis.dot(omega))
+        .find(|along| along.cross(omega).norm() <= SAG * along.norm() * omega.norm() && along.norm() > 0.0);
+    along.map_or(*omega, |along| along.normalize() * omega.norm())
 }
 
 /// Matrices of rates and of motions between the independent nodes, by pairs of these.

@@ -65,6 +65,16 @@ impl Linearized<'_> {
         omega.norm() * self.model.analysis.end_time > ROUNDING
     }
 
+    /// The node that carries another by rigid links, and whether these have arms.
+    pub fn root(&self, node: usize) -> (usize, bool) {
+        let (mut root, mut arm) = (node, false);
+        while let Some(link) = self.system.rigid_links.iter().find(|link| link.node == root && link.rigid) {
+            arm |= link.S0.norm() > 0.0;
+            root = link.master;
+        }
+        (root, arm)
+    }
+
     /// The nodes of the state, at rest.
     pub fn nodes_at_rest(&self) -> Vec<Node> {
         let zero = Vec3::zeros();

@@ -5,7 +5,7 @@
 
 use super::linearized::Linearized;
 use crate::system::FloatingMass;
-use crate::tolerances::gyroscopic::ROUND;
+use crate::tolerances::gyroscopic::{ROUND, SAG};
 use base::math::{Mat3, Mat6, Vec3, skew};
 use mechanics::elements::superelement::SuperelementData;
 use model::ReducedPart;
@@ -38,27 +38,42 @@ impl SpinningPart {
         let first = &nodes[own[0]];
         let made =
             at.model.reductions.iter().filter_map(|of| of.made.as_deref()).find(|made| made.matrices.nodes == own);
-        let axis = first.R().tr_mul(&first.omega.normalize());
         let count = own.iter().filter(|&&node| at.model.nodes[node].is_number).count();
-        let is_on_axis = own[..own.len() - count].iter().all(|&node| {
-            let arm = nodes[node].x - first.x;
-            arm.cross(&first.omega).norm() <= ROUND * arm.norm() * first.omega.norm()
-        });
+        let interface = &own[..own.len() - count];
+        let arms = |of: &dyn Fn(usize) -> usize| -> Vec<Vec3> {
+            interface.iter().map(|&node| at.model.nodes[of(node)].x - at.model.nodes[own[0]].x).collect()
+        };
+        let (own_arms, root_arms) = (arms(&|node| node), arms(&|node| at.root(node).0));
+        let length = own_arms.iter().chain(&root_arms).map(Vec3::norm).fold(0.0, f64::max);
+        // The line of the nodes at t = 0 is the axis of a shaft that sags.
+        let spin = first.R().tr_mul(&first.omega.normalize());
+        let line = own_arms.iter().max_by(|a, b| a.norm().total_cmp(&b.norm())).and_then(|arm| arm.try_normalize(0.0));
+        let line = line.map(|line| line * line.dot(&spin).signum());
+        let axis = line.filter(|line| line.cross(&spin).norm() <= SAG).unwrap_or(spin);
+        let is_near = |arms: &[Vec3]| arms.iter().all(|arm| arm.cross(&axis).norm() <= ROUND * length);
+        let is_on_axis = is_near(&own_arms);
         let turn = match made {
             Some(made) => turn_of_shapes(made, &axis),
             None => (count == 0).then(|| DMatrix::zeros(0, 0)),
         };
         let turn = turn.filter(|turn| is_round(of.element.data(), &axis, turn));
-        let warning = (turn.is_none() || !is_on_axis).then(|| {
-            format!(
-                "`{}` spins with a part by its matrices that is not symmetric about this axis: modes are those of the current instant. Use a beam with equal \
-                 stiffness about both axes and its nodes on the axis, or compute the motion with `kind = \"dynamic\"`",
-                at.model.nodes[own[0]].label
-            )
-        });
+        let label = &at.model.nodes[own[0]].label;
+        let warning = if turn.is_none() || !is_on_axis {
+            Some(format!(
+                "`{label}` spins with a part by its matrices that is not symmetric about this axis: modes are those of the current instant. Use a beam with equal \
+                 stiffness about both axes and its nodes on the axis, or compute the motion with `kind = \"dynamic\"`"
+            ))
+        } else if !is_near(&root_arms) {
+            Some(format!(
+                "`{label}` spins beside the axis of the body that carries it: modes omit the gyroscopic and centrifugal forces of its path. Compute the motion \
+                 with `kind = \"dynamic\"`"
+            ))
+        } else {
+            None
+        };
         let turn = turn.unwrap_or_else(|| DMatrix::zeros(count, count)) * -first.omega.norm();
         let (_, p, l) = of.motion(nodes);
-        let matrices = of.spin_derivatives(nodes, &turn);
+        let matrices = of.spin_derivatives(nodes, &turn, &|| at.is_stopped());
         SpinningPart { nodes: own.to_vec(), matrices, momentum: l - first.x.cross(&p), warning }
     }
 

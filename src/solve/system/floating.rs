@@ -90,17 +90,20 @@ impl FloatingMass {
     }
 
     /// The derivatives of inertia forces by the rates of small motions, and by these, in a steady spin. `turn` gives the rates of the amplitudes
-    /// that lie still in space, per amplitude: they turn against the part. A column for each of six directions of each of its nodes.
-    pub fn spin_derivatives(&self, nodes: &[Node], turn: &DMatrix<f64>) -> [DMatrix<f64>; 2] {
+    /// that lie still in space, per amplitude: they turn against the part. A column for each of six directions of each of its nodes; zeros after
+    /// `stops` returns true.
+    pub fn spin_derivatives(&self, nodes: &[Node], turn: &DMatrix<f64>, stops: &dyn Fn() -> bool) -> [DMatrix<f64>; 2] {
         let own = self.element.nodes();
         let (interface, size) = (own.len() - turn.nrows(), 6 * own.len());
-        let steady: Vec<Node> =
+        let mut nodes: Vec<Node> =
             nodes.iter().map(|node| Node { a: Vec3::zeros(), alpha: Vec3::zeros(), ..*node }).collect();
         let length = own[..interface].iter().map(|&node| (nodes[node].x - nodes[own[0]].x).norm()).fold(0.0, f64::max);
         let spin = nodes[own[0]].omega.norm();
         let square = turn * turn;
-        let forces = |column: usize, [x, rate]: [f64; 2]| {
-            let (mut nodes, (i, dof)) = (steady.clone(), (column / 6, column % 6));
+        let steady: Vec<Node> = own.iter().map(|&node| nodes[node]).collect();
+        let mut F = vec![[0.0; 6]; nodes.len()];
+        let mut forces = |column: usize, [x, rate]: [f64; 2]| {
+            let (i, dof) = (column / 6, column % 6);
             let node = &mut nodes[own[i]];
             match (i < interface, dof) {
                 (true, 0..3) => (node.x[dof], node.v[dof]) = (node.x[dof] + x, node.v[dof] + rate),
@@ -120,13 +123,14 @@ impl FloatingMass {
                     }
                 }
             }
-            let mut F = vec![[0.0; 6]; nodes.len()];
+            own.iter().for_each(|&node| F[node] = [0.0; 6]);
             self.add_forces(&nodes, &Vec3::zeros(), true, None, &mut F);
+            own.iter().zip(&steady).for_each(|(&node, steady)| nodes[node] = *steady);
             DVector::from_iterator(size, own.iter().flat_map(|&node| F[node]))
         };
-        let derivative = |step: [f64; 2]| {
+        let mut derivative = |step: [f64; 2]| {
             let columns: Vec<DVector<f64>> = (0..size)
-                .map(|k| match k / 6 >= interface && k % 6 > 0 {
+                .map(|k| match k / 6 >= interface && k % 6 > 0 || stops() {
                     true => DVector::zeros(size),
                     false => (forces(k, step.map(|step| -step)) - forces(k, step)) / (2.0 * (step[0] + step[1])),
                 })

@@ -97,7 +97,7 @@ fn overhung_disc() {
     }
 }
 
-/// A reduced shaft with a disc whirls as all of its elements do, with its own gyroscopic moments; that of a shaft with a flat section is said to vary.
+/// A reduced shaft with a disc whirls as all of its elements do, with its own gyroscopic moments. A flat section is warned of.
 #[test]
 fn reduced_rotor() {
     let of = |section: &str, key: &str| {
@@ -127,6 +127,21 @@ fn reduced_rotor() {
     assert_eq!((few.warnings.len(), full.warnings.len()), (0, 0), "{:?}", few.warnings);
     let flat = of("shape = \"rectangle\"\nwidth = 0.05\nheight = 0.03", "reduced = 12\n").warnings.join(" ");
     assert!(flat.contains("not symmetric about this axis"), "{flat}");
+    // Its weight bends the shaft by 5e-5, and a soft drive holds it against turning.
+    let weight = "[environment]\ngravity = [0.0, 0.0, -9.81]\n[[links]]\nname = \"drive\"\nfrom = { ground = [0.0, 0.0, 0.0] }\nto = { node = \"a\" }\n\
+                  bushing = [0.0, 0.0, 0.0, 10.0, 0.0, 0.0]\n";
+    let sagging = of(round, &format!("reduced = 12\n{weight}"));
+    assert!(off(&omegas(&sagging.list), &omegas(&full.list)) < 2e-4, "{:?}", omegas(&sagging.list));
+    assert!(sagging.warnings.is_empty(), "{:?}", sagging.warnings);
+    // A shaft beside the axis of the disc that carries it goes round with it.
+    let beside = head("modes = 3\ndamped = true", 0.02, 0.02)
+        .replace("shape = \"rectangle\"\nwidth = 0.02\nheight = 0.02", round)
+        + "[points]\na = [0.0, 0.1, 0.0]\nb = [0.5, 0.1, 0.0]\n[[beams]]\nname = \"shaft\"\npath = [\"a\", \"b\"]\nelements = 5\nmaterial = \"steel\"\n\
+           section = \"s\"\norientation = [0.0, 1.0, 0.0]\nmass = \"consistent\"\nreduced = 4\n[[bodies]]\nname = \"disc\"\ncenter = [0.0, 0.0, 0.0]\n\
+           mass = 20.0\ninertia = [0.4, 0.22, 0.22]\nangular_velocity = [200.0, 0.0, 0.0]\n[[attachments]]\nbody = \"disc\"\nnodes = \"a\"\n\
+           [[initial]]\nat = [\"shaft\"]\nangular_velocity = [200.0, 0.0, 0.0]\nabout = [0.0, 0.0, 0.0]\n[[supports]]\nat = \"disc\"\nfix = [\"translations\"]\n";
+    let beside = modes(&beside).warnings.join(" ");
+    assert!(beside.contains("`a` spins beside the axis"), "{beside}");
 }
 
 /// A column clamped at its foot under a force that follows its head does not buckle, it flutters beyond 20.05 E I/L² (M. Beck, ZAMP 3
