@@ -118,8 +118,9 @@ fn a_slider_crank_approaches_that_of_all_elements() {
         assert!(drift < 1e-3, "{drift:e}");
         largest(&full, &few)
     });
-    // In metres, of a deflection of some 0.3 mm, with static shapes of inertia loads; without these 0 modes erred by 5e-5.
-    assert!(errors[2] < errors[0] && errors[0] < 1e-6, "{errors:?}");
+    // Measured 3.9e-7, 3.1e-7 and 1.7e-7, in metres, of a deflection of some 0.3 mm; without static shapes of inertia loads 0 modes erred by 5e-5.
+    let falls = errors[1] < 0.9 * errors[0] && errors[2] < 0.7 * errors[1];
+    assert!(falls && errors[0] < 5e-7, "{errors:?}");
 }
 
 /// Two panels with a common edge.
