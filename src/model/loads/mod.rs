@@ -10,7 +10,7 @@ pub mod temperature;
 use crate::data::{Actors, Centrifugal, Load, Mass, Pressure};
 use crate::loads::centrifugal::centrifugal_load;
 use crate::loads::placed::placed_load;
-use crate::loads::spread::spread_load;
+use crate::loads::spread::{ElementsByNodes, spread_load};
 use crate::places::nodes::Topology;
 use crate::procedure::stops::NamedActors;
 use crate::report::{Owner, Report};
@@ -42,7 +42,7 @@ pub fn loads<'d>(
     actors: &mut NamedActors<'d>,
     report: &mut Report<'d>,
 ) -> Loads {
-    let mut loads = Loads::default();
+    let (mut loads, elements) = (Loads::default(), ElementsByNodes::default());
     for load in scene.deck.loads.iter().filter(|load| !is_temperature(load)) {
         let first = [loads.nodal.len(), loads.pressures.len(), loads.centrifugal.len()];
         let amplitude = amplitude(scene, load, report);
@@ -52,7 +52,7 @@ pub fn loads<'d>(
         } else if load.distance.is_some() {
             loads.nodal.extend(placed_load(scene, load, amplitude, topology, report));
         } else if is_spread(load) {
-            let (nodal, pressure) = spread_load(scene, load, amplitude, topology, report);
+            let (nodal, pressure) = spread_load(scene, load, amplitude, (topology, &elements), report);
             loads.nodal.extend(nodal);
             loads.pressures.extend(pressure);
         } else {

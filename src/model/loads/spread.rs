@@ -17,14 +17,36 @@ use deck::parts::PartIndex;
 use deck::words::{Names, Table};
 use mechanics::elements::pressure::Face;
 use mechanics::elements::shell;
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, HashMap, HashSet};
+
+/// The elements under spread loads by their nodes, each table made for the first load that needs it.
+#[derive(Default)]
+pub struct ElementsByNodes {
+    /// Elements of beams and bars by their ends in ascending order, as parts and elements.
+    lines: OnceCell<HashMap<[usize; 2], (usize, usize)>>,
+    /// The edges of shells by their ends in ascending order.
+    edges: OnceCell<HashMap<[usize; 2], Edge>>,
+    /// The nodes of all faces of shells, by their corners in ascending order.
+    faces: OnceCell<HashMap<Vec<usize>, Vec<usize>>>,
+}
+
+impl ElementsByNodes {
+    fn lines(&self, scene: &Scene) -> &HashMap<[usize; 2], (usize, usize)> {
+        self.lines.get_or_init(|| elements_by_ends(&scene.parts.list))
+    }
+
+    fn edges(&self, scene: &Scene) -> &HashMap<[usize; 2], Edge> {
+        self.edges.get_or_init(|| edges_by_name(scene))
+    }
+}
 
 /// A load spread over shells, edges or lines, as forces on their nodes; a pressure that follows, as one on their faces.
 pub fn spread_load<'d>(
     scene: &Scene<'d>,
     load: &'d At<Table<words::Load>>,
     amplitude: Option<usize>,
-    topology: &Topology,
+    (topology, elements): (&Topology, &ElementsByNodes),
     report: &mut Report<'d>,
 ) -> (Vec<Load>, Option<Pressure>) {
     let owner = Owner::new("`[[loads]]`", &load.span);
@@ -39,12 +61,10 @@ pub fn spread_load<'d>(
     }
     let Some(names) = names_of(load, &owner, report) else { return (Vec::new(), None) };
     let pressure = load.pressure.as_ref().map_or(0.0, |pressure| pressure.value);
-    let line = line_load(load, amplitude, report);
     let mut spread = Spread {
         words: load,
-        lines: if line.is_some() { elements_by_ends(&scene.parts.list) } else { HashMap::new() },
-        edges: if line.is_some() { edges_by_name(scene) } else { HashMap::new() },
-        line,
+        line: line_load(load, amplitude, report),
+        elements,
         area: vec3_or_zero(&load.force_per_area),
         pressure,
         follows: follower.is_some(),
@@ -55,7 +75,6 @@ pub fn spread_load<'d>(
         shares: Vec::new(),
         seen: HashSet::new(),
         seen_faces: HashSet::new(),
-        shell_faces: None,
     };
     for name in &names.values {
         let Some(place) = scene.names.find(name, report) else { continue };
@@ -166,8 +185,7 @@ struct Spread<'a, 'd> {
     words: &'d words::Load,
     /// A load per length; `None` for one over areas.
     line: Option<LineLoad>,
-    /// Elements of beams and bars by their ends, for a load per length.
-    lines: HashMap<[usize; 2], (usize, usize)>,
+    elements: &'a ElementsByNodes,
     /// Force per area.
     area: Vec3,
     pressure: f64,
@@ -175,8 +193,6 @@ struct Spread<'a, 'd> {
     follows: bool,
     scene: &'a Scene<'d>,
     topology: &'a Topology,
-    /// The edges of shells, for a load per length.
-    edges: HashMap<[usize; 2], Edge>,
     /// Force and moment by node.
     forces: BTreeMap<usize, [Vec3; 2]>,
     faces: Vec<Face>,
@@ -186,8 +202,6 @@ struct Spread<'a, 'd> {
     seen: HashSet<Place>,
     /// Faces already loaded, by their corners in ascending order.
     seen_faces: HashSet<Vec<usize>>,
-    /// The nodes of all faces of shells, by their corners in ascending order; `None` until a group needs them.
-    shell_faces: Option<HashMap<Vec<usize>, Vec<usize>>>,
 }
 
 impl<'d> Spread<'_, 'd> {
@@ -288,10 +302,10 @@ impl<'d> Spread<'_, 'd> {
         let Some(line) = &self.line else { return };
         let parts = &self.scene.parts;
         let scene = (self.topology, &parts.stiffnesses[..]);
-        let mut edges = Vec::new();
+        let (shell_edges, mut edges) = (self.elements.edges(self.scene), Vec::new());
         for &[a, b] in pairs {
             let ends = [a.min(b), a.max(b)];
-            match self.lines.get(&ends).filter(|_| !self.edges.contains_key(&ends)) {
+            match self.elements.lines(self.scene).get(&ends).filter(|_| !shell_edges.contains_key(&ends)) {
                 Some(&element) => self.shares.extend(line.over_element(&parts.list[element.0], element, scene)),
                 None => edges.push([a, b]),
             }
@@ -332,7 +346,7 @@ impl<'d> Spread<'_, 'd> {
     fn load_edge(&mut self, pair: [usize; 2]) {
         let Some(line) = self.line.as_ref().map(|line| line.force) else { return };
         let along = self.topology.x(pair[1]) - self.topology.x(pair[0]);
-        let edge = self.edges.get(&[pair[0].min(pair[1]), pair[0].max(pair[1])]);
+        let edge = self.elements.edges(self.scene).get(&[pair[0].min(pair[1]), pair[0].max(pair[1])]);
         if let Some((nodes, part)) = edge.and_then(|edge| edge.curve) {
             return self.load_curve(nodes, part, &line);
         }
@@ -367,7 +381,7 @@ impl<'d> Spread<'_, 'd> {
 
     /// Distributes the load over the faces of shells in a group of the mesh.
     fn over_group(&mut self, group: usize, name: &'d At<String>, report: &mut Report<'d>) {
-        let all = self.shell_faces.take().unwrap_or_else(|| faces_by_corners(self.scene));
+        let all = self.elements.faces.get_or_init(|| faces_by_corners(self.scene));
         let faces = self.scene.names.mesh.group_faces(group);
         let of_shells: Vec<&Vec<usize>> = faces.iter().filter_map(|corners| all.get(&sorted(corners))).collect();
         of_shells.iter().for_each(|nodes| self.load_face(nodes));
@@ -380,7 +394,6 @@ impl<'d> Spread<'_, 'd> {
                 "loads per area act on shells: make one of the group with all",
             );
         }
-        self.shell_faces = Some(all);
     }
 
     /// Distributes the load over a face, once.

@@ -22,7 +22,9 @@ pub fn check_unjoined(scene: &Scene, topology: &Topology, ties: Ties, report: &m
     for (part, nodes) in pieces.iter() {
         nodes.iter().for_each(|&node| of_node[node] = of_node[node].or(Some(*part)));
     }
-    let mut search = Search { scene, topology, ties, tolerance, of_node, found: Vec::new(), known: HashMap::new() };
+    let bodies = scene.bodies.iter().enumerate().rev().map(|(index, body)| (body.node, index)).collect();
+    let mut search =
+        Search { scene, topology, ties, tolerance, of_node, bodies, found: Vec::new(), known: HashMap::new() };
     search.places();
     search.pieces(&pieces);
     search.report(report);
@@ -66,6 +68,8 @@ struct Search<'a, 'd> {
     tolerance: Coincidence,
     /// One of the parts of each node.
     of_node: Vec<Option<PartIndex>>,
+    /// Indices of bodies by node.
+    bodies: HashMap<usize, usize>,
     found: Vec<Touch>,
     /// Index in `found` by the names of the two and whether they meet between nodes.
     known: HashMap<([String; 2], bool), usize>,
@@ -160,7 +164,7 @@ impl Search<'_, '_> {
     fn name(&self, node: usize, part: Option<PartIndex>) -> String {
         match part.or(self.of_node[node]) {
             Some(part) => title(self.scene.deck, part),
-            None if self.scene.bodies.iter().any(|body| body.node == node) => {
+            None if self.bodies.contains_key(&node) => {
                 format!("body `{}`", self.topology.label(node))
             }
             None => format!("point `{}`", self.topology.label(node)),
@@ -197,10 +201,7 @@ impl Search<'_, '_> {
         let deck = self.scene.deck;
         let point = deck.points.0.get(node).map(|(name, _)| &name.span);
         let part = || self.of_node[node].and_then(|part| deck.part(part)).map(|part| part.place());
-        let body = || {
-            let index = self.scene.bodies.iter().position(|body| body.node == node)?;
-            Some(&deck.bodies.get(index)?.span)
-        };
+        let body = || Some(&deck.bodies.get(*self.bodies.get(&node)?)?.span);
         point.or_else(part).or_else(body).unwrap_or(&(0..0))
     }
 }
