@@ -73,6 +73,7 @@ const OPTIMIZE: &str = "rdsolve computes no sensitivities";
 pub const KEYWORDS: &[KeywordRow] = &[
     read("NODE", "", mesh_cards::nodes, "nodes of the mesh"),
     read("ELEMENT", "", mesh_cards::elements, "elements of the mesh, by their type"),
+    read("USER ELEMENT", "INTEGRATIONPOINTS", mesh_cards::user_element, "nothing of its own: U1 of CalculiX is a beam"),
     read("NGEN", "", mesh_makers::between_nodes, "nodes of the mesh"),
     read("NFILL", "", mesh_makers::between_sets, "nodes of the mesh"),
     read("NCOPY", "", mesh_makers::copied_nodes, "nodes of the mesh"),
@@ -165,7 +166,7 @@ pub const KEYWORDS: &[KeywordRow] = &[
     read("MODAL DYNAMIC", "DIRECT SOLVER DELTMX", step_cards::modal_dynamic, "a dynamic analysis"),
     read(
         "FREQUENCY",
-        "EIGENSOLVER NORMALIZATION SOLVER STORAGE NUMBERINTERVAL ACOUSTICCOUPLING GLOBAL NSET",
+        "EIGENSOLVER NORMALIZATION SOLVER STORAGE NUMBERINTERVAL ACOUSTICCOUPLING GLOBAL NSET SIM",
         step_cards::frequency,
         "natural modes",
     ),
@@ -193,6 +194,7 @@ pub const KEYWORDS: &[KeywordRow] = &[
     read("HEADING", "", step_cards::heading, "title"),
     read("NO COMPRESSION", "", material_cards::no_compression, "[[bars]] tension_only"),
     ignore("PREPRINT", SOLVER),
+    ignore("CONSTRAINT CONTROLS", SOLVER),
     ignore("RESTART", OUTPUT),
     ignore("PHYSICAL CONSTANTS", "constants of radiation and gravitation"),
     ignore("CONTROLS", SOLVER),
@@ -315,7 +317,6 @@ pub const KEYWORDS: &[KeywordRow] = &[
     refuse("RANDOM FIELD", OPTIMIZE),
     refuse("CRACK PROPAGATION", "cracks are not computed"),
     refuse("RELATIVE CONTACT DISPLACEMENT", CONTACT),
-    refuse("USER ELEMENT", "user elements are not translated"),
     refuse("MATRIX ASSEMBLE", PIECES),
     refuse("HCF", "rdsolve computes no fatigue"),
     refuse("FILTER", OPTIMIZE),

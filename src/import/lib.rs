@@ -72,6 +72,7 @@ pub use dialect::Dialect;
 pub use urdf::import_robot;
 pub use verdicts::{KeywordVerdict, VerdictRow, Verdicts};
 
+use base::diagnostic::Diagnostic;
 use base::text_file::Text;
 use importer::Importer;
 use keyword_block::KeywordBlock;
@@ -100,6 +101,9 @@ pub struct Imported {
     pub verdicts: Verdicts,
 }
 
+/// The keywords of a file that is a mesh alone.
+const IN_MESHES: &[&str] = &["HEADING", "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE"];
+
 /// Makes a deck of a file.
 pub fn import(text: &mut Text, options: &ImportOptions) -> Imported {
     let blocks = keyword_block::blocks(text);
@@ -117,6 +121,15 @@ pub fn import(text: &mut Text, options: &ImportOptions) -> Imported {
         read(&mut im, block, *row);
     }
     let built = assemble::build(&mut im, &options.mesh_file);
+    let has = |words: &[&str], block: &KeywordBlock| words.contains(&block.keyword.key().as_str());
+    if blocks.iter().any(|block| has(&["NODE"], block)) && blocks.iter().all(|block| has(IN_MESHES, block)) {
+        // Other verdicts would ask for changes of a mesh that `[mesh]` reads as it is.
+        im.verdicts = Verdicts::new(std::mem::take(&mut im.verdicts.keywords));
+        let about = "this file is a mesh alone, without *STEP";
+        let hint = format!("name it in a deck: `[mesh] file = \"{}\"`; its sets are groups there", text.path);
+        let said = Box::new(Diagnostic { hints: vec![hint], ..*text.fault(about, 1) });
+        im.verdicts.add(text, KeywordVerdict::Refused, 1, Some(said), about.to_owned());
+    }
     for (block, row) in blocks.iter().zip(&rows) {
         let line = block.keyword.line;
         if let Some(row) = row

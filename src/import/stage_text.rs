@@ -5,6 +5,9 @@ use crate::deck_text::{DeckTable, inline, number, quoted};
 use crate::file_content::{DampingOfModes, StepCard, StepProcedure};
 use crate::harmonics;
 
+/// Why a file without steps is refused.
+const NO_STEPS: &str = "the file has no *STEP, and nothing tells what to compute";
+
 /// Adds the analysis or the stages.
 pub fn stages(build: &mut Build) {
     for step in &build.im.steps.list.clone() {
@@ -18,7 +21,7 @@ pub fn stages(build: &mut Build) {
         }
     }
     if build.im.steps.list.is_empty() {
-        build.im.refuse(1, "the file has no *STEP; a mesh alone goes into a deck by `[mesh] file`");
+        build.im.refuse(1, NO_STEPS);
     }
     if !build.im.steps.list.is_empty() && !build.timeline.general.is_empty() {
         lines_of_modes(build);

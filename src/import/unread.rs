@@ -45,7 +45,12 @@ const LOADS: &[&str] = &["DLOAD", "DSLOAD"];
 /// Parameters that act on the motion.
 const UNREAD: &[UnreadParameter] = &[
     refuses(MESH, "INPUT", &[], "lines of another file are not read: give *INCLUDE"),
-    refuses(BEAMS, "TEMPERATURE", &["GRADIENTS"], "temperatures of a section are a mean and gradients: give GRADIENTS"),
+    refuses(
+        BEAMS,
+        "TEMPERATURE",
+        &["GRADIENTS", "GRADIENT"],
+        "temperatures of a section are a mean and gradients: give GRADIENTS",
+    ),
     refuses(SHELLS, "TEMPERATURE", &[], "temperatures of a section are a mean and a gradient: leave it out"),
     changes(BEAMS, "POISSON", &["0", "0.", "0.0"], "sections keep their size; POISSON shrinks them at large strains"),
     changes(BEAMS, "ROTARYINERTIA", &["EXACT"], "beams have the rotary inertia of their section"),

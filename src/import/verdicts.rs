@@ -56,7 +56,7 @@ pub struct VerdictRow {
 #[derive(Debug, Default)]
 pub struct Verdicts {
     /// Line and name of every keyword or element, ascending.
-    keywords: Vec<(usize, String)>,
+    pub(crate) keywords: Vec<(usize, String)>,
     /// All rows, as they were found.
     pub rows: Vec<VerdictRow>,
     /// Harmless parameters that nothing has read: "INC of *STEP".

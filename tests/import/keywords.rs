@@ -14,6 +14,22 @@ fn unknown_keywords() {
     assert!(stranger.contains(&"1 *BOUNDARY: SUBMODEL of *BOUNDARY is not read".to_owned()), "{stranger:?}");
 }
 
+/// A mesh alone has one refusal, whatever its elements are. Steps are missed where there is more.
+#[test]
+fn meshes_alone() {
+    let mesh = "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 1., 1.\n*ELEMENT, TYPE=CPS3, ELSET=e\n1, 1, 2, 3\n*NSET, NSET=n\n1\n";
+    let said = imported(mesh).verdicts.said();
+    assert_eq!(
+        said.iter().map(|said| &*said.message).collect::<Vec<_>>(),
+        ["this file is a mesh alone, without *STEP"]
+    );
+    assert!(said[0].hints[0].starts_with("name it in a deck: `[mesh] file = "), "{:?}", said[0].hints);
+    let more = refusals(&imported(&format!("{mesh}*MATERIAL, NAME=m\n")));
+    assert!(more.iter().any(|said| said.contains("the file has no *STEP")), "{more:?}");
+    assert!(more.iter().any(|said| said.contains("no plane elements")), "{more:?}");
+    assert!(refusals(&imported("")).iter().any(|said| said.contains("the file has no *STEP")));
+}
+
 /// A parameter that nothing asks for is in the report: as refused where nobody knows it, as changed or refused where it acts on the motion,
 /// else as ignored.
 #[test]
@@ -31,7 +47,7 @@ fn parameters_that_nothing_reads() {
         (("SECTION=RECT", "SECTION=RECT, POISSON=0.3"), KeywordVerdict::Changed, "POISSON: sections keep"),
         (("SECTION=RECT", "SECTION=RECT, POISSON=0."), KeywordVerdict::Ignored, "POISSON is not read"),
         (("SECTION=RECT", "SECTION=RECT, TEMPERATURE=VALUES"), KeywordVerdict::Refused, "TEMPERATURE: temp"),
-        (("SECTION=RECT", "SECTION=RECT, TEMPERATURE=GRADIENTS"), KeywordVerdict::Ignored, "TEMPERATURE is not"),
+        (("SECTION=RECT", "SECTION=RECT, TEMPERATURE=GRADIENT"), KeywordVerdict::Ignored, "TEMPERATURE is not"),
         (("*NSET,", "*NSET, UNSORTED,"), KeywordVerdict::Ignored, "UNSORTED is not read"),
         (("*NODE", "*NODE, INPUT=a.txt"), KeywordVerdict::Refused, "INPUT: lines of another file"),
     ] {

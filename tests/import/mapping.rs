@@ -115,6 +115,13 @@ fn rows() -> Vec<(&'static str, String)> {
             ),
         ),
         ("BEAM GENERAL SECTION", edited(BEAM, &[(SECTION, general)])),
+        (
+            "USER ELEMENT",
+            edited(
+                &model("*USER ELEMENT, TYPE=U1, NODES=2, INTEGRATION POINTS=2, MAXDOF=6\n"),
+                &[("TYPE=B31", "TYPE=U1")],
+            ),
+        ),
         ("SOLID SECTION; NO COMPRESSION", edited(&material("*NO COMPRESSION\n"), &truss)),
         (
             "SHELL SECTION; ELSET; SURFACE; DSLOAD",

@@ -108,7 +108,7 @@ fn types_by_their_shape() {
         (CellShape::Segment, "1, 2", "B31 B31R B31H B33 B21 PIPE31 T3D2 T2D2 U1"),
         (CellShape::CurvedSegment, "1, 7, 2", "B32 B32R B32H B22 PIPE32 T3D3"),
         (CellShape::Triangle, "1, 2, 3", "S3 S3R STRI3 US3 CPS3 CPE3 M3D3 R3D3"),
-        (CellShape::Quadrilateral, "1, 2, 3, 4", "S4 S4R S4R5 S4RS CPS4 CPS4R CPE4 M3D4 R3D4"),
+        (CellShape::Quadrilateral, "1, 2, 3, 4", "S4 S4R S4R5 S4RS CPS4 CPS4R CPE4 M3D4 R3D4 CAX4P"),
         (CellShape::CurvedTriangle, "1, 2, 3, 7, 8, 9", "S6 STRI65 CPS6 CPE6 M3D6"),
         (CellShape::Serendipity, "1, 2, 3, 4, 7, 8, 10, 11", "S8 S8R S8R5 CPS8 CPE8R M3D8"),
         (CellShape::CurvedQuadrilateral, "1, 2, 3, 4, 7, 8, 10, 11, 12", "S9R5 M3D9"),

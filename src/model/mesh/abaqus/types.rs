@@ -3,7 +3,7 @@
 use crate::mesh::data::CellShape;
 
 /// Types by shape. The deck decides the kind of a group: a membrane or plane element is a face like a shell, and a truss is a line like a
-/// beam. Axisymmetric elements are none: they stand for rings.
+/// beam. Axisymmetric elements are none: they stand for rings; but meshio names each quadrilateral CAX4P.
 const SHAPES: &[(CellShape, &[&str])] = &[
     (
         CellShape::Segment,
@@ -27,7 +27,7 @@ const SHAPES: &[(CellShape, &[&str])] = &[
         CellShape::Quadrilateral,
         &[
             "S4", "S4R", "S4RS", "S4RSW", "S4R5", "S4T", "S4RT", "CPS4", "CPS4R", "CPS4I", "CPE4", "CPE4R", "CPE4I",
-            "CPE4H", "CPE4RH", "CPE4IH", "M3D4", "M3D4R", "R3D4", "SFM3D4", "SFM3D4R", "DS4",
+            "CPE4H", "CPE4RH", "CPE4IH", "M3D4", "M3D4R", "R3D4", "SFM3D4", "SFM3D4R", "DS4", "CAX4P",
         ],
     ),
     (CellShape::CurvedTriangle, &["S6", "STRI65", "CPS6", "CPS6M", "CPE6", "CPE6H", "CPE6M", "M3D6", "SFM3D6", "DS6"]),
