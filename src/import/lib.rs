@@ -123,7 +123,7 @@ pub fn import(text: &mut Text, options: &ImportOptions) -> Imported {
     let built = assemble::build(&mut im, &options.mesh_file);
     let has = |words: &[&str], block: &KeywordBlock| words.contains(&block.keyword.key().as_str());
     if blocks.iter().any(|block| has(&["NODE"], block)) && blocks.iter().all(|block| has(IN_MESHES, block)) {
-        // Other verdicts would ask for changes of a mesh that `[mesh]` reads as it is.
+        // Other verdicts would ask for changes, and `[mesh]` reads this mesh without them.
         im.verdicts = Verdicts::new(std::mem::take(&mut im.verdicts.keywords));
         let about = "this file is a mesh alone, without *STEP";
         let hint = format!("name it in a deck: `[mesh] file = \"{}\"`; its sets are groups there", text.path);

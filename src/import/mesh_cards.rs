@@ -213,7 +213,7 @@ pub fn outside(im: &mut Importer, _: &KeywordBlock) {
     im.scopes.at = ScopeIndex::Outer;
 }
 
-/// `*USER ELEMENT`, of which U1 of CalculiX is a beam.
+/// `*USER ELEMENT`; U1 of CalculiX is a beam.
 pub fn user_element(im: &mut Importer, block: &KeywordBlock) {
     let value = |name: &str| block.keyword.value(name).unwrap_or_default().to_ascii_uppercase();
     if ["TYPE", "NODES", "MAXDOF"].map(value) != ["U1", "2", "6"] {

@@ -111,8 +111,16 @@ fn read_beam(im: &mut Importer, block: &KeywordBlock, is_general: bool) {
         Ok(found) => found,
         Err(why) => return im.refuse(line, &why),
     };
-    if word == "GENERAL" && im.dialect != Some(Dialect::Calculix) {
-        im.change(line, "the shear areas are the area; Abaqus lowers them for slender elements");
+    if word == "GENERAL" {
+        im.change(
+            line,
+            match im.dialect {
+                Some(Dialect::Calculix) => {
+                    "beams bend along both axes; CalculiX 2.20 hardly bends U1 along the second one"
+                }
+                _ => "the shear areas are the area; Abaqus lowers them for slender elements",
+            },
+        );
     }
     match &word[..] {
         "BOX" if sizes[2] != sizes[4] || sizes[3] != sizes[5] => {
@@ -276,18 +284,19 @@ fn i_section(sizes: &[f64]) -> KeysAndCentroid {
     (keys, [0.0, over])
 }
 
-/// Area and moments: area, I11, I12, I22, then the torsion constant of Abaqus or the shear factor of CalculiX.
+/// Area and moments: area, I11, I12, I22, then the torsion constant of Abaqus or the shear factor of CalculiX. I11 of Abaqus bends beams
+/// about the first axis. I11 of CalculiX bends them along it.
 fn general(sizes: &[f64], dialect: Option<Dialect>) -> Vec<(&'static str, SectionValue)> {
     use SectionValue::{Number, Numbers, Word};
     let fifth = sizes.get(4).copied().filter(|x| *x > 0.0);
-    let (torsion, factor) = match dialect {
-        Some(Dialect::Calculix) => (sizes[1] + sizes[3], fifth.unwrap_or(5.0 / 6.0)),
-        _ => (fifth.unwrap_or(sizes[1] + sizes[3]), 1.0),
+    let (moments, torsion, factor) = match dialect {
+        Some(Dialect::Calculix) => ([sizes[3], sizes[1]], sizes[1] + sizes[3], fifth.unwrap_or(5.0 / 6.0)),
+        _ => ([sizes[1], sizes[3]], fifth.unwrap_or(sizes[1] + sizes[3]), 1.0),
     };
     let mut keys = vec![
         ("shape", Word("general")),
         ("area", Number(sizes[0])),
-        ("moments", Numbers(vec![sizes[1], sizes[3]])),
+        ("moments", Numbers(moments.to_vec())),
         ("torsion_constant", Number(torsion)),
         ("shear_areas", Numbers(vec![factor * sizes[0], factor * sizes[0]])),
     ];

@@ -47,6 +47,9 @@ fn sections_of_beams() {
     let abaqus = Some(Dialect::Abaqus);
     has(BEAM, &[], None, "[sections.rod]\nshape = \"rectangle\"\nwidth = 0.1\nheight = 0.2\n");
     has(BEAM, &with("SECTION=RECT", "0.1"), calculix, "shape = \"rectangle\"\nwidth = 0.1\nheight = 0.1\n");
+    // CalculiX 2.20 bends U1 by I11 along the first axis.
+    has(BEAM, &with("SECTION=GENERAL", "0.02, 3e-5, 0., 4e-5"), calculix, "moments = [4e-5, 3e-5]\n");
+    has(BEAM, &with("SECTION=GENERAL", "0.02, 3e-5, 0., 4e-5"), abaqus, "moments = [3e-5, 4e-5]\n");
     refuses(BEAM, &with("SECTION=RECT", "0.1"), "SECTION=RECT needs 2 numbers");
     has(BEAM, &with("SECTION=CIRC", "0.1"), abaqus, "shape = \"circle\"\nradius = 0.1\n");
     has(BEAM, &with("SECTION=CIRC", "0.1, 0.1"), calculix, "shape = \"circle\"\nradius = 0.05\n");
