@@ -180,3 +180,8 @@ pub struct Iteration {
     /// Largest number of iterations in a step before a cutback.
     pub limit: usize,
 }
+
+impl Iteration {
+    /// The default of `limit`, except with the initial load method.
+    pub const LIMIT: usize = 20;
+}

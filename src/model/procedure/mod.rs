@@ -243,7 +243,7 @@ fn iteration(table: Option<&At<Table<words::Iteration>>>, report: &mut Report) -
         gyroscopic: Gyroscopic::Auto,
         tolerance: 1e-8,
         follows_step: true,
-        limit: 20,
+        limit: Iteration::LIMIT,
     };
     let Some(table) = table else { return iteration };
     if let Some(at) = &table.tolerance {

@@ -204,6 +204,7 @@ impl EquilibriumSolver {
             let taken = Taken { state, from, grows: *grows };
             guards.tell(|guard| guard.after_step(cx, ws, &taken));
         }
+        self.newton.matrix.refresh.end_step();
         let overwritten = std::mem::take(&mut ws.matrix.overwritten);
         match &accepted {
             Ok(()) if !overwritten => {}

@@ -21,7 +21,7 @@ use crate::strategy::extrapolation::StressExtrapolation;
 use crate::strategy::linearized_prediction::LinearizedPrediction;
 use crate::strategy::refresh::{Advice, Refresh};
 use crate::strategy::relaxation::Relaxation;
-use crate::tolerances::iteration::{BALANCED, INITIAL_LOADS, LONGER, NEAR_LIMIT};
+use crate::tolerances::iteration::{BALANCED, LONGER, NEAR_LIMIT};
 use crate::workspace::Workspace;
 use base::snapshot::keep;
 
@@ -84,19 +84,21 @@ impl Newton {
         step: Step,
         path: Option<PathCondition>,
     ) -> Result<StepReport, Failure> {
-        let progress = StepProgress::begin(cx, step.to, path.is_none(), &self.tolerance);
+        let progress = self.begin_progress(cx, ws, &step, path.is_none());
         let is_load_step = path.is_none() && self.regime.has_load_control(cx);
         let mut found = self.iterate(cx, ws, guards, step, progress, path);
         // Where whole sections yield, in shear too, tangents lead far away; the initial load method then contracts, and shorter steps do not.
-        if let Err(failure) = &found
-            && !matches!(failure, Failure::Stopped | Failure::Singular { .. })
+        if matches!(found, Err(Failure::NotConverged { .. } | Failure::NotFinite { .. }))
             && is_load_step
             && cx.system.yields()
             && self.matrix.refresh.require_elastic_matrix()
         {
             self.predict(cx, ws, &step);
-            let progress = StepProgress::begin(cx, step.to, true, &self.tolerance).with_limit(INITIAL_LOADS);
-            found = self.iterate(cx, ws, guards, step, progress, None).or(found);
+            let progress = StepProgress::begin(cx, step.to, true, &self.tolerance).for_elastic_matrix();
+            let again = self.iterate(cx, ws, guards, step, progress, None);
+            if matches!(again, Ok(_) | Err(Failure::Stopped | Failure::Singular { .. })) {
+                found = again;
+            }
         }
         self.arrive(ws, found)
     }
@@ -113,7 +115,7 @@ impl Newton {
         step: Step,
     ) -> Result<StepReport, Failure> {
         self.forget_corrections();
-        let progress = StepProgress::begin(cx, step.to, true, &self.tolerance).at_equilibrium();
+        let progress = self.begin_progress(cx, ws, &step, true).at_equilibrium();
         let found = self.iterate(cx, ws, guards, step, progress, None);
         self.arrive(ws, found)
     }
@@ -151,7 +153,7 @@ impl Newton {
         mut progress: StepProgress,
         mut path: Option<PathCondition>,
     ) -> Result<StepReport, Failure> {
-        self.begin(cx, ws, &step, &mut progress);
+        self.begin(cx, ws, &step);
         loop {
             ws.matrix.check_stop(cx)?;
             self.residual(cx, ws, &step, &mut progress);
@@ -182,11 +184,15 @@ impl Newton {
         }
     }
 
+    /// Begins the iteration of a step, longer for careful ones.
+    fn begin_progress(&self, cx: &Context, ws: &Workspace, step: &Step, has_given_time: bool) -> StepProgress {
+        let mut progress = StepProgress::begin(cx, step.to, has_given_time, &self.tolerance);
+        progress.limit *= if ws.load_steps.careful { LONGER } else { 1 };
+        progress
+    }
+
     /// Evaluates loads and prescribed motion of a step.
-    fn begin(&mut self, cx: &Context, ws: &mut Workspace, step: &Step, progress: &mut StepProgress) {
-        if ws.load_steps.careful {
-            progress.limit *= LONGER;
-        }
+    fn begin(&mut self, cx: &Context, ws: &mut Workspace, step: &Step) {
         excite(cx, ws, step.state.time, step.to, step.stage.scheme.instant);
         self.regime.begin(cx, ws);
     }

@@ -8,9 +8,11 @@ use crate::step::convergence_tolerance::ConvergenceTolerance;
 use crate::step::correct::is_rounding;
 use crate::step::regime::Regime;
 use crate::step::size::Size;
+use crate::tolerances::iteration::INITIAL_LOADS;
 use crate::tolerances::progress::SURE;
 use crate::warning::Warning;
 use crate::workspace::Workspace;
+use model::Iteration;
 
 /// The progress of the iteration of a step.
 pub struct StepProgress {
@@ -57,8 +59,9 @@ impl StepProgress {
         StepProgress { predicted: false, ..self }
     }
 
-    /// This progress with another limit of iterations.
-    pub fn with_limit(self, limit: usize) -> StepProgress {
+    /// This progress with the limit for an elastic matrix, which contracts slowly; a smaller limit of the deck stays.
+    pub fn for_elastic_matrix(self) -> StepProgress {
+        let limit = if self.limit < Iteration::LIMIT { self.limit } else { self.limit.max(INITIAL_LOADS) };
         StepProgress { limit, ..self }
     }
 

@@ -131,7 +131,7 @@ impl Refresh {
     /// Records a correction of this size, the `count`-th of its iteration. A long correction turns slender parts so far that the earlier
     /// matrix no longer contracts; observed contractions set the limit of this size.
     pub fn note(&mut self, count: usize, fresh: bool, size: f64, judgement: &Judgement) {
-        if self.update != Update::Auto || self.method == Method::InitialLoad {
+        if self.update != Update::Auto || self.moduli() == Moduli::Elastic {
             return;
         }
         if count == 1 {
@@ -174,14 +174,18 @@ impl Refresh {
 
     /// Counts an accepted step. Renewing a matrix pays once its excess iterations over a fresh one cost as much as the renewal.
     pub fn accepted(&mut self, iterations: usize) {
-        if std::mem::take(&mut self.elastic_required) {
-            self.dt = None;
-        }
         let baseline = *self.baseline.get_or_insert(iterations);
         self.excess += iterations.saturating_sub(baseline);
         self.wanted = self.update == Update::Auto && self.excess as f64 >= self.cost;
         count_down(&mut self.eager, &mut self.next_eager);
         count_down(&mut self.required, &mut self.next_required);
+    }
+
+    /// Discards an elastic matrix at the end of the step that asked for it.
+    pub fn end_step(&mut self) {
+        if std::mem::take(&mut self.elastic_required) {
+            self.dt = None;
+        }
     }
 
     /// Discards the matrix after a failed step, because it belongs to a rejected motion.
