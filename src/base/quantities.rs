@@ -119,6 +119,16 @@ impl UnitSystem {
     pub fn find(name: &str) -> Option<&'static UnitSystem> {
         UNIT_SYSTEMS.iter().find(|system| system.name == name)
     }
+
+    /// Its unit of stress, in Pa.
+    pub fn pascals(&self) -> f64 {
+        match self.named[0] {
+            "GPa" => 1e9,
+            "MPa" => 1e6,
+            "kPa" => 1e3,
+            _ => 1.0,
+        }
+    }
 }
 
 impl Unit {

@@ -292,6 +292,8 @@ pub mod strain {
     pub const LARGE_LOGARITHMIC: [f64; 2] = [-0.22, 0.4];
     /// Elastic strain of a beam beyond that of metals, wood, concrete and fibres; loads in N for kN give 0.1 and more.
     pub const BEYOND_ELASTIC: f64 = 0.1;
+    /// Modulus in Pa below that of these: rubber, rope and foam stay elastic beyond.
+    pub const SOFT: f64 = 1e9;
     /// Error of displacements by rotations in the frame of a superelement or a reduced part.
     pub const BENT: f64 = 0.003;
     /// Number of checks of strains in a run: plastic strains do not disappear.
@@ -910,6 +912,8 @@ pub mod plane {
 pub mod excitation {
     /// Fraction of a run over which the slope beyond its end is taken.
     pub const TAIL: f64 = 0.01;
+    /// How far loads may pass the end of a stage under displacement control, in its end time.
+    pub const FARTHEST: f64 = 1e6;
 }
 
 pub mod penalties {

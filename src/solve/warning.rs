@@ -438,7 +438,7 @@ fn bent(name: &str, [reduced, linear]: [bool; 2], turn: f64) -> String {
 /// The message of an elastic beam strained as no material can be.
 fn beyond_elastic(name: &str, stress: f64, strain: f64) -> String {
     format!(
-        "the stress in `{name}` reaches {}, a strain of {} %: no material stays elastic so far. Look at the units of loads and sections, N for \
+        "the stress in `{name}` reaches {}, a strain of {} %: few materials stay elastic so far. Look at the units of loads and sections, N for \
          kN or mm for m, or give it `model` = \"elastic-plastic\"",
         to_digits(stress, 3),
         to_digits(100.0 * strain, 2)
@@ -539,6 +539,16 @@ impl Warnings {
         let found = Warning::Bent { name: name.to_owned(), reduced, linear, turn };
         match known {
             Some(at) => self.warnings[at] = found,
+            None => self.warnings.push(found),
+        }
+    }
+
+    /// Adds the stress and the strain of an elastic beam, or keeps them where they are larger than those known.
+    pub fn beyond_elastic(&mut self, beam: &str, [stress, strain]: [f64; 2]) {
+        let found = Warning::BeyondElastic { name: beam.to_owned(), stress, strain };
+        match self.warnings.iter_mut().find(|known| matches!(known, Warning::BeyondElastic { .. })) {
+            Some(Warning::BeyondElastic { strain: known, .. }) if strain <= *known => {}
+            Some(known) => *known = found,
             None => self.warnings.push(found),
         }
     }

@@ -3,11 +3,12 @@
 
 use crate::context::Context;
 use crate::guards::guard::{Guard, Taken};
-use crate::system::{SectionPoint, judges_stresses, largest_elastic_stress};
+use crate::system::{SectionPoint, judges_stresses, largest_elastic_strain, section_points};
 use crate::tolerances::strain::{BENT, BEYOND_ELASTIC, LARGE, LARGE_LOGARITHMIC, LOOKS};
-use crate::warning::{Warning, Warnings, bending_error};
+use crate::warning::{Warnings, bending_error};
 use crate::workspace::Workspace;
 use mechanics::state::State;
+use model::Model;
 
 /// Records the largest strain at the end of a step that passes one of a hundred equal parts of the run.
 #[derive(Default)]
@@ -23,20 +24,24 @@ impl Guard for StrainGuard {
         if part(taken.from) != part(taken.state.time) {
             look(cx, &mut ws.warnings, taken.state);
             if judges_stresses(cx.model) {
-                self.look_at_beams(cx, &mut ws.warnings, taken.state);
+                section_points(
+                    cx.system.shown_groups(),
+                    cx.model,
+                    &taken.state.configuration(),
+                    None,
+                    &mut self.points,
+                );
+                look_at_beams(cx.model, &self.points, &mut ws.warnings);
             }
         }
     }
 }
 
-impl StrainGuard {
-    fn look_at_beams(&mut self, cx: &Context, warnings: &mut Warnings, state: &State) {
-        let groups = cx.system.shown_groups();
-        let found = largest_elastic_stress(groups, cx.model, &state.configuration(), &mut self.points);
-        if let Some((part, [stress, strain])) = found.filter(|(_, [_, strain])| *strain > BEYOND_ELASTIC) {
-            let name = cx.model.parts[part].name().to_owned();
-            warnings.add(Warning::BeyondElastic { name, stress, strain });
-        }
+/// Warns of an elastic beam with implausible strain.
+pub fn look_at_beams(model: &Model, points: &[SectionPoint], warnings: &mut Warnings) {
+    let found = largest_elastic_strain(model, points);
+    if let Some((part, of)) = found.filter(|(_, [_, strain])| *strain > BEYOND_ELASTIC) {
+        warnings.beyond_elastic(model.parts[part].name(), of);
     }
 }
 

@@ -8,6 +8,7 @@ use crate::control::Schedule;
 use crate::derived::Derived;
 use crate::failure::Failure;
 use crate::frame::ShownCase;
+use crate::guards::strain::look_at_beams;
 use crate::march::March;
 use crate::outcome::Outcome;
 use crate::recorder::AcceptedStep;
@@ -53,6 +54,7 @@ pub fn lead(march: &mut March, schedule: &Schedule) -> Result<(), Outcome> {
         };
         let found = recorder.notify_case((cx, ws, state), *observer, (&step, case), (needs(cx.model), compute))?;
         warn_beyond_yield(cx.model, found, &mut ws.warnings);
+        look_at_beams(cx.model, &found.sections, &mut ws.warnings);
         factorizations = 0;
     }
     Ok(())

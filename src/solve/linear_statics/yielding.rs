@@ -1,6 +1,7 @@
 //! Stresses beyond the yield stress of materials, which stay elastic in a linear analysis.
 
 use crate::derived::{Derived, Wanted};
+use crate::system::judges_stresses;
 use crate::warning::Warnings;
 use base::math::{Mat3, Vec3};
 use model::{Model, YieldLimit};
@@ -8,6 +9,7 @@ use model::{Model, YieldLimit};
 /// The results from which stresses are known.
 pub fn needs(model: &Model) -> Wanted {
     match model.cases.yield_limits.is_empty() {
+        true if judges_stresses(model) => Wanted::SECTIONS,
         true => Wanted::NOTHING,
         false => Wanted::SECTIONS | Wanted::SHELLS | Wanted::BARS,
     }

@@ -73,7 +73,8 @@ pub use mass_scaling::{GoverningElement, MassScaling, ScaledPart, added_at, gove
 pub use mechanics::amplitude::Side;
 pub use multipliers::Multipliers;
 pub use parts::beam_sections::{
-    SectionPlace, SectionPoint, elastic_stresses, judges_stresses, largest_elastic_stress, renew_stresses,
+    SectionPlace, SectionPoint, elastic_stresses, judges_stresses, largest_elastic_strain, renew_stresses,
+    section_points,
 };
 pub use parts::links::LinkState;
 pub use parts::shell_shear::ShearBalance;

@@ -4,6 +4,8 @@ use super::beam_ends::BeamEnds;
 use crate::system::group::Group;
 use crate::system::loads::Loading;
 use crate::system::mass_damping::MassDamping;
+use crate::tolerances::strain::SOFT;
+use base::quantities::UnitSystem;
 use mechanics::elements::IntegrationPoint;
 use mechanics::sections::BeamStresses;
 use mechanics::state::Configuration;
@@ -122,21 +124,17 @@ pub fn judges_stresses(model: &Model) -> bool {
         && model.each::<Beam>().any(|beam| beam.yielding.is_none() && !beam.elements.is_empty())
 }
 
-/// The largest normal stress of beams that stay elastic, with its strain and its part; `points` is room for their resultants.
-pub fn largest_elastic_stress<'g>(
-    groups: impl Iterator<Item = &'g Group>,
-    model: &Model,
-    now: &Configuration,
-    points: &mut Vec<SectionPoint>,
-) -> Option<(usize, [f64; 2])> {
-    section_points(groups, model, now, None, points);
+/// The largest strain of beams that stay elastic, as part, normal stress and strain. Materials of low modulus, in the unit of stress
+/// of the deck, stay elastic far beyond others and do not count.
+pub fn largest_elastic_strain(model: &Model, points: &[SectionPoint]) -> Option<(usize, [f64; 2])> {
+    let softest = SOFT / UnitSystem::find(model.output.units.as_deref()?)?.pascals();
     let strained = points.iter().filter_map(|point| {
         let beam = Beam::of(&model.parts[point.part]).filter(|beam| beam.yielding.is_none())?;
         let section = section_at(beam, point.element, point.place);
         let modulus = model.stiffnesses[section].N[(0, 0)] / model.stresses[section].as_ref()?.area();
         let [most, least, ..] = point.at.stresses?.values;
         let stress = most.max(-least);
-        Some((point.part, [stress, stress / modulus]))
+        Some((point.part, [stress, stress / modulus])).filter(|_| modulus >= softest && stress.is_finite())
     });
     strained.max_by(|(_, a), (_, b)| a[1].total_cmp(&b[1]))
 }
