@@ -35,11 +35,12 @@ pub fn check_loose(model: &Model, report: &mut Report) {
     let all: Vec<(&str, usize)> = parts.chain(bodies.filter(|_| !is_static)).collect();
     if !all.iter().any(|(_, node)| groups.of(*node) == ground) {
         let is_still = model.nodes.iter().all(|node| node.v.norm() + node.omega.norm() == 0.0);
-        let lands = model.parts.iter().any(|part| !part.touched_nodes().is_empty()) || !model.loading.nodal.is_empty();
+        let lands = model.parts.iter().any(|part| !part.touched_nodes().is_empty());
         let deforms = model.parts.iter().any(|part| part.kind().is_deformable());
-        if let Some((name, node)) = all.first().filter(|_| falls && !is_static && is_still && !lands && deforms) {
-            let message =
-                format!("no support, joint or contact holds `{name}` or any other part: all of them fall freely");
+        let is_meant = lands || !(is_static || falls && is_still && model.loading.nodal.is_empty());
+        if let Some((name, node)) = all.first().filter(|_| !is_meant && deforms) {
+            let does = if is_static { "there is no static equilibrium" } else { "all of them fall freely" };
+            let message = format!("no support, joint or contact holds `{name}` or any other part: {does}");
             report.warn(&place(*node), message, "add `[[supports]]`");
         }
         return;
@@ -82,7 +83,9 @@ impl Groups {
         constraints.dependents.iter().for_each(|dependent| groups.join(dependent.node, dependent.master));
         constraints.joints.iter().for_each(|joint| joint.all_ends().for_each(|end| groups.join(joint.ends[0], end)));
         constraints.restraints.iter().for_each(|restraint| groups.join(restraint.node, count));
-        model.damping.nodal.iter().for_each(|damper| groups.join(damper.node, count));
+        // A damper holds nothing at rest.
+        let dampers = model.damping.nodal.iter().filter(|_| model.analysis.kind == AnalysisKind::Dynamic);
+        dampers.for_each(|damper| groups.join(damper.node, count));
         groups
     }
 

@@ -20,7 +20,7 @@ const FAR: f64 = 10.0;
 const BOLT: f64 = 3.0;
 
 /// Depths in the length of a beam beyond which lengths and sections are in different units: such a wire has no bending stiffness to speak of.
-const SLENDER: f64 = 5000.0;
+const SLENDER: f64 = 1e5;
 
 /// Warns of parts thicker than they are wide or long. The deck is sound.
 pub fn check_proportions(scene: &Scene, nodes: &Nodes, report: &mut Report) {
@@ -56,11 +56,15 @@ fn check_line(part: &DeckPart, of: &[Part], depths: [f64; 2], (extent, nodes): (
     let length: f64 =
         of.iter().map(|part| (0..part.elements()).map(|e| length(part.nodes(e), nodes)).sum::<f64>()).sum();
     let depth = depths[0].max(depths[1]);
-    if depth > 0.0 && length > SLENDER * depth {
-        let (title, times) = (part.title(), short(length / depth));
-        let message = format!("{title} is {} long, {times} times the depth of its section", short(length));
+    // A table may hold all columns of a hall: its box counts.
+    let places =
+        || of.iter().flat_map(|part| (0..part.elements()).flat_map(|e| part.nodes(e))).map(|&node| nodes.x(node));
+    let corner = |pick: fn(&Vec3, &Vec3) -> Vec3| places().reduce(|a, b| pick(&a, &b)).unwrap_or_default();
+    let across = (corner(Vec3::sup) - corner(Vec3::inf)).norm();
+    if depth > 0.0 && across > SLENDER * depth {
+        let (title, times) = (part.title(), short(across / depth));
+        let message = format!("{title} extends over {}, {times} times the depth of its section", short(across));
         report.warn(part.span, message, "look at the units of lengths and sections; cables are `[[bars]]`");
-        return;
     }
     // A bending stiffness far from its area may stand for anything: the depth of a rectangle is the word for it.
     let (deep, long) = match depths {
