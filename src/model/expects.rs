@@ -334,10 +334,16 @@ impl<'d> Expects<'_, 'd> {
     fn unknown<T>(&mut self, name: &At<String>) -> Option<T> {
         if let Some(node) = self.held_by(name) {
             let message = format!("`{}` is the name of a support, which has no values", name.value);
-            let hint = format!(
-                "for its reaction give a point that it holds, such as at = \"{node}\", and a quantity from \"fx\" to \"mz\""
+            let such = node.filter(|node| !self.reactions(*node).is_empty()).map_or_else(String::new, |node| {
+                let list = &self.topology.list;
+                let columns: Vec<String> = self.reactions(node).iter().map(|of| format!("\"{}\"", of.name)).collect();
+                format!(", such as at = \"{}\" with quantity = {}", list[node].label, columns.join(" or "))
+            });
+            return self.report.error_with(
+                &name.span,
+                message,
+                format!("for its reaction give a point that it holds{such}"),
             );
-            return self.report.error_with(&name.span, message, hint);
         }
         let known = || {
             let mut known = self.scene.names.known(|_| true);
@@ -348,12 +354,18 @@ impl<'d> Expects<'_, 'd> {
         self.scene.names.unknown("point, body, part or link", name, known, self.report)
     }
 
-    /// The first name in the support of this name.
-    fn held_by(&self, name: &At<String>) -> Option<&'d str> {
+    /// The first point or body in the support of this name, if one has its own name; `None` without such a support.
+    fn held_by(&self, name: &At<String>) -> Option<Option<usize>> {
         let is_named =
             |of: &&At<Table<deck::supports::Support>>| of.name.as_ref().is_some_and(|own| own.value == name.value);
         let support = self.scene.deck.supports.iter().find(is_named)?;
-        support.at.as_ref()?.values.first().map(|first| first.value.as_str())
+        let places = support.at.iter().flat_map(|at| &at.values).filter_map(|at| self.scene.place_or_node(at));
+        let mut leaves = places.flat_map(|place| self.scene.names.leaves(place));
+        Some(leaves.find_map(|place| match place {
+            Place::Point(node) => Some(node),
+            Place::Body(body) => Some(self.scene.names.body_node(body)),
+            _ => None,
+        }))
     }
 
     /// The columns of reactions at a node: the directions restrained by supports, at the node or at the support point of its name.
