@@ -96,6 +96,9 @@ class Module(unittest.TestCase):
         with self.assertWarnsRegex(UserWarning, "nodes.csv is incomplete"):
             torn = rdsolve.read(self.out)["nodes"]
         self.assertTrue(torn.equals(whole.iloc[:-1]))
+        table.write_bytes(table.read_bytes()[:9])
+        with self.assertRaisesRegex(ValueError, "nodes.csv has no whole line"):
+            rdsolve.read(self.out)["nodes"]
 
     def test_values_are_written_as_toml(self):
         for value, text in [

@@ -5,7 +5,6 @@
     nodes.attrs["units"]["ux"]        # "m", where the deck has units = "SI"
 """
 
-import io
 import json
 import os
 import shutil
@@ -98,9 +97,12 @@ class Results(Mapping):
             path = self.folder / f"{name}.csv"
             if not path.is_file():
                 raise KeyError(f"{self.folder} has no table {name!r}, but {', '.join(self) or 'none'}")
-            whole = _whole_rows(path)
+            rows = _whole_rows(path)
+            if not rows:
+                raise ValueError(f"{path} has no whole line yet: its run is still writing, or was ended")
             # Texts such as "NA" are names, and every number is read back to the last bit.
-            frame = pandas.read_csv(whole, keep_default_na=False, na_values=[""], float_precision="round_trip")
+            options = {"keep_default_na": False, "na_values": [""], "float_precision": "round_trip"}
+            frame = pandas.read_csv(path, nrows=rows - 1, **options)
             known = _columns().get(path.name, {})
             columns = {name: known[name] for name in frame.columns if name in known}
             system = self.result.get("units", "")
@@ -124,15 +126,17 @@ def _call(words):
 
 
 def _whole_rows(path):
-    """The rows of a table that have an end: a run that is writing, or was killed, leaves half a row behind them."""
-    text = path.read_bytes()
-    end = text.rfind(b"\n") + 1
-    # A quoted name may hold line breaks.
-    while text.count(b'"', 0, end) % 2:
-        end = text.rfind(b"\n", 0, end - 1) + 1
-    if end < len(text):
+    """The number of lines of a table that have an end: a run that is writing, or was killed, leaves half a row behind them."""
+    rows, is_whole, quotes = 0, True, 0
+    with path.open("rb") as lines:
+        for line in lines:
+            # A quoted name may hold line breaks.
+            quotes += line.count(b'"')
+            is_whole = line.endswith(b"\n") and quotes % 2 == 0
+            rows += is_whole
+    if rows and not is_whole:
         warnings.warn(f"the last line of {path} is incomplete and omitted", stacklevel=3)
-    return io.BytesIO(text[:end])
+    return rows
 
 
 @lru_cache(maxsize=None)
