@@ -150,8 +150,9 @@ fn stop_missed(run: &Run, model: &Model) -> Option<String> {
 /// Reports a static stage that stopped before its end while it was still unloading.
 fn left_held(run: &Run, model: &Model, end_time: Option<f64>) -> Option<String> {
     let holds_back = model.analysis.stage.as_ref()?.holds_back;
-    let left = (model.analysis.end_time - end_time?) / model.analysis.duration();
-    (holds_back && run.has_stopped() == Some(true)).then(|| {
+    // A path may pass the end, and go back beyond the beginning.
+    let left = ((model.analysis.end_time - end_time?) / model.analysis.duration()).min(1.0);
+    (holds_back && left > 0.0 && run.has_stopped() == Some(true)).then(|| {
         let part = to_digits(100.0 * left, 2);
         format!(
             "it stopped while forces that were out of balance at its beginning were still going: {part} % of them are left. Let it run to its \
@@ -294,9 +295,9 @@ impl StageRunner<'_> {
         let Some(state) = state else { return Ok(Next::End(outcome)) };
         while let (Outcome::Done, Some(planned)) = (&outcome, self.loaded.later.get(ends.len())) {
             ends.push(state.time);
-            let mut model = match planned.analysis.begin == state.time {
+            // Where a stage has ended at another time, later ones begin then, and the amplitudes of its loads end there.
+            let mut model = match self.went_as_planned(ends) {
                 true => planned.clone(),
-                // The stage has stopped before its time: all others come earlier.
                 false => self.planned_anew(ends, planned)?,
             };
             // Where modes come first, nothing has happened yet.
@@ -317,6 +318,16 @@ impl StageRunner<'_> {
             outcome = self.run_stage((&model, &mut modes), course, (watchers, told))?.0;
         }
         Ok(Next::End(outcome))
+    }
+
+    /// True where all stages have ended as planned. Paths find their ends.
+    fn went_as_planned(&self, ends: &[f64]) -> bool {
+        let Loaded { model, later, .. } = self.loaded;
+        let ended = std::iter::once(model).chain(later);
+        let kept = |((end, of), next): ((&f64, &Model), &Model)| {
+            *end == next.analysis.begin && !of.analysis.step_length.is_arc_length()
+        };
+        ends.iter().zip(ended).zip(later).all(kept)
     }
 
     /// The model of the next stage, planned again for the actual ends of the earlier stages.

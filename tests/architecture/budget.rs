@@ -4,13 +4,13 @@ use super::source::{CRATES, lines_below};
 
 /// Lines of the sources below src by crate, `program` for what lies beside them.
 const BUDGET: [(&str, usize); 11] = [
-    ("base", 6970),
+    ("base", 6980),
     ("linear", 4270),
     ("mechanics", 36_310),
     ("deck", 5440),
     ("import", 10_860),
-    ("model", 27_760),
-    ("solve", 35_870),
+    ("model", 27_790),
+    ("solve", 35_910),
     ("results", 11_550),
     ("study", 4280),
     ("sweep", 1670),

@@ -619,10 +619,14 @@ fn truss_is_pushed_by_its_displacement() {
     assert_eq!(turns(&done.rows), 2);
 }
 
-/// Weight first, then a path to a displacement, then rest: the path ends at the load of the closed form, which stays in the stage after it. A pattern
-/// of loads that a displacement leads grows beyond its value.
+/// Weight first, then a path to a displacement, then rest: the path ends at the load of the closed form, which stays in the stages after it, also
+/// where one of them ends as planned. Loads that a displacement leads grow beyond their value, and a prescribed motion stops at its own.
 #[test]
 fn stages_follow_paths() {
+    const ASIDE: &str = "[[bars]]\nname = \"strut\"\npath = [\"left\", \"aside\"]\naxial_stiffness = 1.0\nmass_per_length = 0.0\n\
+                         [[supports]]\nat = \"aside\"\nfix = [\"ux\"]\n\
+                         [[supports]]\nat = \"aside\"\nmotion = { uz = { to = 0.01 } }\n\
+                         stages = [\"push\", \"rest\", \"end\"]\n";
     let stage =
         |name: &str, keys: &str| format!("[[stages]]\nname = \"{name}\"\nkind = \"static\"\nduration = 1.0\n{keys}\n");
     let stop = "stop = { at = \"crown\", quantity = \"uz\", value = -0.1 }";
@@ -632,14 +636,24 @@ fn stages_follow_paths() {
         )
     };
     let (moved, arc) = ("control = \"displacement\"\nincrement = 0.02", "control = \"arc-length\"\ntime_step = 0.05");
-    for (control, force) in [(moved, 60.0), (arc, 60.0), (moved, 6.0)] {
+    // The path ends between 1.3 and 2 with loads of 60, and behind 2 with 6; the rest then ends as planned at 2.1.
+    let early = "stop = { time = 2.1 }\n";
+    let beside = "aside = [-1.0, 0.0, -5.0]\n";
+    for (control, force, early) in [(moved, 60.0, early), (arc, 60.0, early), (moved, 6.0, "")] {
         let deck = stage("weight", "time_step = 0.5")
             + &stage("push", &format!("{control}\n{stop}"))
-            + &stage("rest", "time_step = 0.5")
-            + TRUSS
+            + &stage("rest", &format!("time_step = 0.5\n{early}"))
+            + &stage("end", "time_step = 0.5")
+            + &TRUSS
+                .replace("crown = [", &format!("{beside}crown = ["))
+                .replace("[[bars]]", &format!("{ASIDE}[[bars]]"))
             + "[[loads]]\nat = \"crown\"\nforce = [0.0, 0.0, -10.0]\n"
-            + &format!("[[loads]]\nat = \"crown\"\nforce = [0.0, 0.0, -{force:?}]\nstages = [\"push\", \"rest\"]\n")
+            + &format!(
+                "[[loads]]\nat = \"crown\"\nforce = [0.0, 0.0, -{force:?}]\nstages = [\"push\", \"rest\", \"end\"]\n"
+            )
             + &expect("crown", "uz", "push", -0.1)
+            + &expect("aside", "uz", "push", if force == 6.0 { 0.01 } else { 0.01 * (truss(0.1) - 10.0) / force })
+            + &expect("crown", "uz", "end", -0.1)
             + &expect("analysis", "time", "push", 1.0 + (truss(0.1) - 10.0) / force)
             + &expect("crown", "uz", "rest", -0.1);
         let folder = tempfile::tempdir().unwrap();

@@ -21,6 +21,8 @@ pub struct RunStage {
     pub holds_back: bool,
     /// The amplitude of loads that first act here and have no other; a buckling stage seeks the factor of these.
     pub own_amplitude: usize,
+    /// True where loads without an amplitude begin here.
+    pub loads_grow: bool,
     /// The condition for an early end.
     pub stop: Option<Stop>,
 }

@@ -141,6 +141,6 @@ fn nodal_load<'d>(
 
 /// The index of the amplitude of a load.
 fn amplitude<'d>(scene: &Scene<'d>, load: &'d words::Load, report: &mut Report<'d>) -> Option<usize> {
-    let Some(name) = &load.amplitude else { return scene.stage.map(|stage| stage.own_amplitude(&load.stages)) };
+    let Some(name) = &load.amplitude else { return scene.stage.map(|stage| stage.amplitude_of_load(&load.stages)) };
     report.find("amplitude", &scene.deck.amplitudes, name).map(|(index, _)| index)
 }

@@ -33,7 +33,7 @@ pub fn check_scaled_loads(
 ) {
     let control = scene.deck.analysis.as_ref().and_then(|analysis| analysis.control.as_ref());
     let (Some(path), Some(control)) = (path, control) else { return };
-    let own = scene.stage.map(|stage| stage.amplitude_of_stage());
+    let own = scene.stage.map(|stage| stage.amplitude_of_loads());
     let acts = |load: &Load| load.coordinate().is_none() && !topology.list[load.node].is_number;
     let is_scaled = |load: &&Load| load.amplitude == own && acts(load) && load.force != Vec3::zeros();
     let scaled: Vec<&Load> = nodal.iter().filter(is_scaled).collect();

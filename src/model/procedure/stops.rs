@@ -30,6 +30,7 @@ pub fn stage<'d>(scene: &Scene<'d>, actors: NamedActors<'d>, report: &mut Report
         follows_motion: current.follows_motion(),
         holds_back: false,
         own_amplitude: current.amplitude_of_stage(),
+        loads_grow: scene.deck.loads.iter().any(|load| load.amplitude.is_none() && current.is_pulled(&load.stages)),
         stop,
     })
 }

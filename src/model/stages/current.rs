@@ -49,12 +49,19 @@ impl<'d> CurrentStage<'d> {
         self.sequence.stages.len()
     }
 
-    /// The amplitudes of loads without one, which stand behind those of the deck.
+    /// The amplitudes of actions without one, which stand behind those of the deck.
     pub fn own_amplitudes(&self) -> impl Iterator<Item = Amplitude> {
         self.sequence.own_amplitudes()
     }
 
     /// The index of the amplitude of a load with these `stages` that has none.
+    pub fn amplitude_of_load(&self, stages: &Maybe<Names>) -> usize {
+        let own = self.own_amplitude(stages);
+        let first = own - self.sequence.whole.amplitudes.0.len();
+        own - first + self.sequence.amplitude_of_loads(first)
+    }
+
+    /// The index of the amplitude of another action with these `stages` that has none.
     pub fn own_amplitude(&self, stages: &Maybe<Names>) -> usize {
         // A buckling stage scales the loads that first act in it, also if they act later.
         if buckles(self.table()) && self.is_new(stages) {
@@ -63,9 +70,14 @@ impl<'d> CurrentStage<'d> {
         self.sequence.whole.amplitudes.0.len() + self.sequence.first(stages)
     }
 
-    /// The index of the amplitude of loads that first act in this stage and have none.
+    /// The index of the amplitude of actions that first act in this stage and have none.
     pub fn amplitude_of_stage(&self) -> usize {
         self.sequence.whole.amplitudes.0.len() + self.index
+    }
+
+    /// The index of the amplitude of loads likewise.
+    pub fn amplitude_of_loads(&self) -> usize {
+        self.sequence.whole.amplitudes.0.len() + self.sequence.amplitude_of_loads(self.index)
     }
 
     /// True where a table with these `stages` is not there at t = 0.

@@ -200,26 +200,29 @@ impl<'d> StageSequence<'d> {
         self.whole.staged().iter().map(|(_, stages)| self.holds(index, stages)).collect()
     }
 
-    /// The functions of time for loads without an amplitude, one per stage of their first action: a static stage ramps them up, then they
-    /// stay constant.
+    /// The functions of time for actions without an amplitude, one per stage of their first action: a static stage ramps them up, then they
+    /// stay constant. Amplitudes of loads follow; under displacement control they grow until the end of the stage.
     pub fn own_amplitudes(&self) -> impl Iterator<Item = Amplitude> {
-        self.stages.iter().map(|stage| {
-            let planned = stage.begin + stage.duration;
+        let ends = self.stages.iter().map(|stage| (stage, stage.end.min(stage.begin + stage.duration)));
+        let of_loads = self.stages.iter().map(|stage| match is_moved(stage.table) && !stage.has_ended {
+            true => (stage, stage.begin + FARTHEST * stage.duration),
+            false => (stage, stage.end),
+        });
+        ends.chain(of_loads).map(|(stage, end)| {
             if stage.kind != StageKind::Static {
                 return Amplitude::Constant;
             }
-            // A pattern of loads grows until the displacement is there.
-            let end = if is_moved(stage.table) && !stage.has_ended {
-                stage.begin + FARTHEST * stage.duration
-            } else {
-                stage.end
-            };
-            if end == planned {
+            if end == stage.begin + stage.duration {
                 return Amplitude::Ramp { start: stage.begin, end };
             }
             let reached = (end - stage.begin) / stage.duration;
             Amplitude::Table(StraightLines::new(vec![[stage.begin, 0.0], [end, reached]]))
         })
+    }
+
+    /// The index of the amplitude of loads that first act in a stage, among those of [`StageSequence::own_amplitudes`].
+    pub fn amplitude_of_loads(&self, index: usize) -> usize {
+        index + if is_moved(self.stages[index].table) { self.stages.len() } else { 0 }
     }
 }
 

@@ -44,8 +44,8 @@ impl Targets {
     /// The end of the path, its `stop`, and the expectations along it.
     pub fn new(model: &Model, path: &ArcLength) -> Self {
         let mut all = Targets(Vec::new());
-        // Loads that a displacement leads have no last value.
-        if path.increment.is_none() {
+        // Loads that a displacement leads have no last value; other actions of a stage have one.
+        if path.increment.is_none() || model.analysis.stage.as_ref().is_some_and(|stage| !stage.loads_grow) {
             all.add(TargetQuantity::Time, model.analysis.end_time, 1).ends = true;
         }
         if let Some(stop) = path.stop {

@@ -2,12 +2,12 @@
 //! motion.
 
 use super::loads::Loading;
-use crate::tolerances::excitation::TAIL;
+use crate::tolerances::excitation::{FARTHEST, TAIL};
 use base::math::turn::Turn;
 use base::math::{Vec3, rotation};
 use base::snapshot::keep;
 use mechanics::amplitude::{Amplitude, Jump, Side};
-use model::{AnalysisKind, GivenTurn, History, Model, PrescribedMotion, Restraint};
+use model::{AnalysisKind, GivenTurn, History, Model, PrescribedMotion, Restraint, StepLength};
 
 /// Displacement, velocity and acceleration of a restrained degree of freedom; angles are in radians. For three rotations prescribed
 /// together, `u` is the value in the deck; `v` and `a` are components of the angular velocity and acceleration.
@@ -85,7 +85,10 @@ impl<'a> Excitation<'a> {
         let mut excitation =
             Excitation { model, jumps, slack: 1e-9 * model.analysis.end_time, loads: Vec::new(), motions: Vec::new() };
         if model.analysis.step_length.is_arc_length() {
-            let end = model.analysis.end_time;
+            // Loads of a stage that a displacement leads pass its end, and no other action does.
+            let passes_end = model.analysis.stage.as_ref().is_some_and(|stage| stage.loads_grow)
+                && matches!(&model.analysis.step_length, StepLength::ArcLength(path) if path.increment.is_some());
+            let end = if passes_end { FARTHEST } else { 1.0 } * model.analysis.end_time;
             let loads = model.loading.amplitudes.iter();
             excitation.loads = loads
                 .map(|a| Extrapolation::new(a.begin().min(0.0), end, |t| a.value(t), |t| a.rate(t, Side::After)))
