@@ -136,7 +136,7 @@ pub fn refuse_one_place(build: &mut Build, line: usize, [a, b]: [u64; 2]) -> boo
     is_one
 }
 
-/// Refuses two nodes that lie apart, between which the deck has no joint; returns whether they do.
+/// Refuses two nodes that lie apart, since a joint holds them at one place; returns whether they do.
 fn refuse_apart(build: &mut Build, line: usize, [a, b]: [u64; 2]) -> bool {
     const APART: f64 = 1e-4; // of the mesh; the deck's own check is sharper
     let lies = |id: &u64| *id != 0 && build.mesh.has(*id);
@@ -336,7 +336,7 @@ fn refuse_later_coordinate(build: &mut Build, cell: usize) {
     }
     let changes: Vec<ModelChange> =
         build.im.steps.list.iter().flat_map(|card| card.changes.clone()).filter(|change| !change.is_pair).collect();
-    let why = "a joint with a spring, a stop or a drive does not come in a later step: leave it in all steps, with a drive that is zero until then";
+    let why = "a joint with a spring, a stop or a drive does not come in a later step: leave it in, with a drive that is zero until then";
     for change in changes {
         if change.targets.iter().any(|target| build.cells(target).contains(&cell)) {
             build.im.refuse(change.line, why);

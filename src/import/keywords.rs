@@ -73,7 +73,7 @@ const OPTIMIZE: &str = "rdsolve computes no sensitivities";
 pub const KEYWORDS: &[KeywordRow] = &[
     read("NODE", "", mesh_cards::nodes, "nodes of the mesh"),
     read("ELEMENT", "", mesh_cards::elements, "elements of the mesh, by their type"),
-    read("USER ELEMENT", "INTEGRATIONPOINTS", mesh_cards::user_element, "nothing of its own: U1 of CalculiX is a beam"),
+    read("USER ELEMENT", "INTEGRATIONPOINTS", mesh_cards::user_element, "nothing: U1 of CalculiX is a beam"),
     read("NGEN", "", mesh_makers::between_nodes, "nodes of the mesh"),
     read("NFILL", "", mesh_makers::between_sets, "nodes of the mesh"),
     read("NCOPY", "", mesh_makers::copied_nodes, "nodes of the mesh"),

@@ -118,7 +118,7 @@ pub mod linearized_prediction {
 }
 
 pub mod refresh {
-    /// Largest number of equilibria that begin with a fresh matrix because old ones have misled, or that get one in every iteration.
+    /// Largest number of equilibria with a fresh matrix at their start, or in every iteration, after a failure of old ones.
     pub const MOST_EAGER: usize = 64;
     /// Contraction above which any matrix is renewed, because the iteration would reach its limit.
     pub const USED_UP: f64 = 0.9;
@@ -761,7 +761,7 @@ pub mod gyroscopic {
     pub const STEP: f64 = 1e-4;
     /// Difference of the shapes of a round part and those turned about its axis, as a part of these: rounding of pairs of modes.
     pub const ROUND: f64 = 1e-6;
-    /// Sine of the angle between the spin and an axis of symmetry below which the part spins about that axis. Shafts sag by less.
+    /// Largest sine of the angle between the spin and an axis of symmetry of a part that spins about this axis. Shafts sag by less.
     pub const SAG: f64 = 0.01;
     /// An asymmetry below this part is rounding.
     pub const SYMMETRIC: f64 = 1e-9;

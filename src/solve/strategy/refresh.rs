@@ -30,8 +30,8 @@ pub struct Refresh {
     stale_beyond: f64,
     /// Size of the first correction of the current iteration, if its matrix was formed for it.
     first: Option<f64>,
-    /// Number of equilibria still to get a fresh matrix in every iteration, with the current one, since anything less has failed, and the
-    /// number to ask for when it fails next.
+    /// Number of equilibria that still get a fresh matrix in every iteration, the current one included. The second is the number to ask for
+    /// at the next failure.
     required: usize,
     next_required: usize,
     /// True where the step gets the elastic matrix, since tangents have failed.
@@ -220,7 +220,7 @@ fn ask_again(steps: &mut usize, next: &mut usize) {
     *next = (2 * *next).min(MOST_EAGER);
 }
 
-/// Counts a step with help, or one that needed none, after which the next call for help covers half as many steps.
+/// Counts a step with help. After a step without need, the next call for help covers half as many steps.
 fn count_down(steps: &mut usize, next: &mut usize) {
     if *steps > 0 {
         *steps -= 1;

@@ -127,7 +127,7 @@ pub(in crate::elements::contact) struct PairForce {
 }
 
 impl<'a> ConvexPair<'a> {
-    /// True where the balls about two bodies do not meet on straight ways from `start` to `end`; false where a ball is not at a node.
+    /// True where the balls about two bodies do not meet on straight ways from `start` to `end`. False if a ball is not at a node.
     pub fn balls_miss(&self, start: &[Node], end: &[Node]) -> bool {
         let is_ball = !matches!(self.other.shape, ConvexShape::HalfSpace(_)) && self.other.center == Vec3::zeros();
         let between = |nodes: &[Node]| nodes[self.one.node].relative_position(&nodes[self.other.node]);
