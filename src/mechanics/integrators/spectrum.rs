@@ -100,7 +100,7 @@ fn explicit(c: &Coefficients, omega2: f64, [u, v, a, _]: [f64; 4]) -> [f64; 4] {
 mod tests {
     use super::*;
     use crate::integrators::{
-        Bathe, CentralDifference, GeneralizedAlpha, HhtAlpha, Newmark, RotationUpdate, WilsonTheta,
+        Bathe, CentralDifference, Esdirk3, GeneralizedAlpha, HhtAlpha, Newmark, RotationUpdate, WilsonTheta,
     };
     use std::f64::consts::TAU;
     use std::sync::Arc;
@@ -149,5 +149,21 @@ mod tests {
         let c = error_constant(&Newmark { gamma: 0.5, beta: 0.25, rotation: RotationUpdate::Exponential });
         // The next term of the series is (ωΔt)² = 1e-2 times as large.
         assert!((c - 1.0 / 12.0).abs() < 1e-2 / 12.0, "{c}");
+    }
+
+    /// ESDIRK3 has the stability function R = P(z)/(1 − γz)⁴ with P of degree 3, so e⁻ᶻR = 1 − C₄z⁴ − (C₅ + (4γ − 1)C₄)z⁵ − ..., where C are
+    /// the coefficients of eᶻ(1 − γz)⁴. Powers 4 damp an oscillator, and powers 5 shift its phase.
+    #[test]
+    fn damping_and_phase_of_esdirk3() {
+        let scheme = Esdirk3 { rotation: RotationUpdate::Exponential };
+        let g = 9.0_f64 / 40.0;
+        let c4 = 1.0 / 24.0 - 4.0 * g / 6.0 + 3.0 * g.powi(2) - 4.0 * g.powi(3) + g.powi(4);
+        let c5 = 1.0 / 120.0 - 4.0 * g / 24.0 + g.powi(2) - 2.0 * g.powi(3) + g.powi(4);
+        let d = phase_constant(&scheme);
+        // The next term of the series is (ωΔt)² = 1e-2 times as large.
+        assert!((d / (c5 + (4.0 * g - 1.0) * c4) - 1.0).abs() < 1e-2, "{d}");
+        // c contains the error of phase: (c₄² + (d ωΔt)²)^½ with ωΔt = 0.1.
+        let c = error_constant(&scheme);
+        assert!((c / c4.hypot(0.1 * d) - 1.0).abs() < 1e-2, "{c}");
     }
 }
