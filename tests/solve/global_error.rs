@@ -85,6 +85,11 @@ fn a_changed_tolerance_counts_by_its_worst_interval() {
     assert!(run(&[]) > 3.0 * run(&[0.5]), "{}", run(&[]));
     // The end of the run makes no interval of its own.
     assert_eq!(run(&[0.5, 1.0]), run(&[0.5]));
+    // Steps of the second half that are as long as those of the pilot run, or longer, tell no error, however short those of the first half are.
+    let pieces = |steps| in_pieces(&[(0.5, 80), (1.0, steps)], &[0.5]);
+    assert!(pieces(200).is_told_by(&pilot) && !pieces(101).is_told_by(&pilot) && !pieces(50).is_told_by(&pilot));
+    let mut error = StepError::new(1e-3);
+    assert!(error.judge(&pieces(50), &pilot, 1.0).is_some() && error.estimate.is_none(), "{error:?}");
 }
 
 /// Errors of first order fall with the length of steps: 1.5 times as long, they are 1.5 times as large.

@@ -127,8 +127,7 @@ impl Kept {
 
     /// True where the steps of another run are enough longer to tell the error of this one.
     pub fn is_told_by(&self, other: &Kept) -> bool {
-        let [own, theirs] = self.own_steps(other);
-        !self.has_steps_of(other) && own.sums_apart(&theirs).powf(SLOPE) > TELLING
+        !self.has_steps_of(other) && self.apart(other) > TELLING
     }
 
     /// True if most steps equal those of the other run, because something other than the tolerance limits them.
