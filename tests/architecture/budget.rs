@@ -4,13 +4,13 @@ use super::source::{CRATES, lines_below};
 
 /// Lines of the sources below src by crate, `program` for what lies beside them.
 const BUDGET: [(&str, usize); 11] = [
-    ("base", 6980),
+    ("base", 7000),
     ("linear", 4270),
-    ("mechanics", 36_310),
+    ("mechanics", 36_410),
     ("deck", 5440),
-    ("import", 10_860),
-    ("model", 27_790),
-    ("solve", 35_910),
+    ("import", 10_990),
+    ("model", 27_820),
+    ("solve", 36_320),
     ("results", 11_550),
     ("study", 4280),
     ("sweep", 1670),
