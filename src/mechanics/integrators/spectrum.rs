@@ -151,7 +151,7 @@ mod tests {
         assert!((c - 1.0 / 12.0).abs() < 1e-2 / 12.0, "{c}");
     }
 
-    /// e⁻ᶻR = 1 − C₄z⁴ − (C₅ + (4γ − 1)C₄)z⁵ − ... for R = P₃(z)/(1 − γz)⁴ and the coefficients C of eᶻ(1 − γz)⁴, with γ = 9/40: 1.1858e-3.
+    /// By R = P₃(z)/(1 − γz)⁴ with γ = 9/40: d = C₅ + (4γ − 1)C₄ = 1.1858e-3, with the coefficients C of eᶻ(1 − γz)⁴.
     #[test]
     fn phase_of_esdirk3() {
         let d = phase_constant(&Esdirk3 { rotation: RotationUpdate::Exponential });
