@@ -354,8 +354,10 @@ pub mod error_controlled {
     pub const SAFETY: f64 = 0.9;
     /// Steps grow only where they may by this factor, and by no more than two, since a new length costs a new matrix.
     pub const WORTH: f64 = 1.4;
-    /// Errors oscillate with the motion, and their sum counts, so lengths follow a mean over this fraction of the run.
+    /// Errors oscillate with the motion, and their sum counts, so lengths follow a mean over this fraction of the run, ...
     pub const SPAN: f64 = 0.05;
+    /// ... with at least this weight of the last step.
+    pub const WEIGHT: f64 = 0.002;
     /// Fraction of the sum of all errors that remains at the end. Steady growth to 1 of an oscillation has a root mean square of 1/√6 over
     /// a run; errors partly cancel, as the models B1, C4 and X1 show.
     pub const MEAN: f64 = 0.3;
@@ -521,8 +523,9 @@ pub mod global_error {
     pub const WITHIN: f64 = 1.5;
     /// Ratio of the tolerances of the comparison run and the run: for a scheme of third order its steps are twice as long.
     pub const LOOSER: f64 = 8.0;
-    /// Least and largest ratio of the tolerances of two runs in a row.
-    pub const CHANGE: [f64; 2] = [0.01, 0.5];
+    /// Least and largest ratio of the tolerances of two runs in a row. Estimates from far apart are too large: with a least ratio of 0.01
+    /// runs erred by a tenth of what was asked, and took two to three times the iterations.
+    pub const CHANGE: [f64; 2] = [0.25, 0.5];
     /// Ratio to the steps of the run before above which a run is aborted: its motion cannot be resolved.
     pub const MOST_LONGER: usize = 30;
     /// A comparison run with more than twice the steps of its run plus this number is aborted: its longer steps do not follow the motion.

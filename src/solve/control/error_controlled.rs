@@ -24,7 +24,7 @@ use crate::step::tangent::IterationMatrix;
 use crate::step::trial::Stage;
 use crate::system::kinks::has_kinks;
 use crate::tolerances::error_controlled::{
-    FEWEST, FILTERS, MEAN, MEAN_OF_STAGES, RESOLVED, SAFETY, SLIGHT, SPAN, TOO_MUCH, TRIALS, WORTH,
+    FEWEST, FILTERS, MEAN, MEAN_OF_STAGES, RESOLVED, SAFETY, SLIGHT, SPAN, TOO_MUCH, TRIALS, WEIGHT, WORTH,
 };
 use crate::workspace::Workspace;
 use base::math::{Vec3, Vec6, stack};
@@ -164,9 +164,10 @@ impl<'a> ErrorController<'a> {
         self.lasting.update(&self.errors[0], factor, dt, tau);
         let error = factor * self.measure.relative(self.lasting.value(), self.motion, time);
         let lasting = error / (self.tolerance * part) / dt.powi(self.order);
-        // The first step is short, so it counts little.
+        // The first step is short, so it counts little. Schemes of second order follow small vibrations where it counts so.
         self.covered += dt;
-        let weight = (dt / (SPAN * end_time).min(self.covered)).min(1.0);
+        let span = if self.of_phase > 0.0 { self.covered.min(SPAN * end_time) } else { SPAN * end_time };
+        let weight = (dt / span).clamp(WEIGHT, 1.0);
         let update =
             |mean: Option<f64>, now: f64| mean.map_or(now, |mean| mean / grown + weight * (now - mean / grown));
         let mean = update(self.lasting_intensity, lasting);
