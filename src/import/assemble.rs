@@ -1,7 +1,7 @@
 //! Builds the deck and its mesh from the content of the file: all families of tables, one after the other.
 
 use crate::build::Build;
-use crate::deck_text::{DeckTable, DeckText, Names};
+use crate::deck_text::{DeckTable, DeckText};
 use crate::flat_mesh::FlatMesh;
 use crate::importer::Importer;
 use crate::tied_nodes::TiedNodes;
@@ -48,8 +48,7 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
         turning: BTreeSet::new(),
         tied: TiedNodes::default(),
         has_gravity: false,
-        amplitudes: HashMap::new(),
-        amplitude_names: Names::default(),
+        amplitudes: Default::default(),
     };
     build.tied.axes = nodal_axes::of_nodes(&mut build);
     ties::merge(&mut build);

@@ -1,6 +1,6 @@
 //! A deck under construction, and how lines of the file name nodes and elements.
 
-use crate::deck_text::{DeckText, Names};
+use crate::deck_text::{DeckText, UniqueNames};
 use crate::flat_mesh::FlatMesh;
 use crate::importer::Importer;
 use crate::part_piece::PartPiece;
@@ -41,8 +41,7 @@ pub struct Build<'b, 'a, 't> {
     /// True where the deck has gravity.
     pub has_gravity: bool,
     /// Amplitudes in the deck by their content, and their names.
-    pub amplitudes: HashMap<String, String>,
-    pub amplitude_names: Names,
+    pub amplitudes: (HashMap<String, String>, UniqueNames),
 }
 
 impl Build<'_, '_, '_> {

@@ -127,17 +127,17 @@ impl DeckTable {
 #[derive(Debug, Default)]
 pub struct DeckText {
     tables: Vec<DeckTable>,
-    names: Names,
+    names: UniqueNames,
 }
 
 /// Names that nothing else has, whatever their case.
 #[derive(Debug, Default)]
-pub struct Names {
+pub struct UniqueNames {
     /// Names in small letters, and the last number behind each.
     taken: HashMap<String, usize>,
 }
 
-impl Names {
+impl UniqueNames {
     /// The wanted name, if that is free, else with a number behind it; it is taken then.
     pub fn unique(&mut self, wanted: &str) -> String {
         let mut name = wanted.to_owned();

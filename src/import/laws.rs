@@ -195,12 +195,12 @@ impl Build<'_, '_, '_> {
     /// Adds an amplitude unless the deck has one like it; returns its name.
     pub fn amplitude(&mut self, name: &str, table: DeckTable) -> String {
         let content = table.content();
-        if let Some(known) = self.amplitudes.get(&content) {
+        if let Some(known) = self.amplitudes.0.get(&content) {
             return known.clone();
         }
-        let unique = self.amplitude_names.unique(name);
+        let unique = self.amplitudes.1.unique(name);
         self.deck.add(table.with_name(&unique));
-        self.amplitudes.insert(content, unique.clone());
+        self.amplitudes.0.insert(content, unique.clone());
         unique
     }
 }

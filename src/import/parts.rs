@@ -2,7 +2,7 @@
 
 use crate::build::Build;
 use crate::contacts;
-use crate::deck_text::{DeckTable, Names, inline, list, number, quoted, vector};
+use crate::deck_text::{DeckTable, UniqueNames, inline, list, number, quoted, vector};
 use crate::dialect::Dialect;
 use crate::element_types::ElementUse;
 use crate::file_content::{SectionCard, SectionOf, SectionValue};
@@ -25,7 +25,7 @@ const ROUNDING: f64 = 1e-14;
 const PARALLEL: f64 = 1e-6;
 
 /// The names of sections in the deck by the index of their cards, and all of them.
-type SectionNames = (HashMap<usize, String>, Names);
+type SectionNames = (HashMap<usize, String>, UniqueNames);
 
 /// The differences that divide elements of one section into parts.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]

@@ -111,27 +111,7 @@ fn read_beam(im: &mut Importer, block: &KeywordBlock, is_general: bool) {
         Ok(found) => found,
         Err(why) => return im.refuse(line, &why),
     };
-    if word == "GENERAL" {
-        im.change(
-            line,
-            match im.dialect {
-                Some(Dialect::Calculix) => {
-                    "beams bend along both axes; CalculiX 2.20 hardly bends U1 along the second one"
-                }
-                _ => "the shear areas are the area; Abaqus lowers them for slender elements",
-            },
-        );
-    }
-    match &word[..] {
-        "BOX" if sizes[2] != sizes[4] || sizes[3] != sizes[5] => {
-            im.change(line, "the shear centre of a box of unlike walls is its centroid");
-        }
-        "ARBITRARY" => im.change(line, "the shear centre is the centroid"),
-        "TRAPEZOID" => {
-            im.change(line, "the torsion constant is A⁴/(40 I), with I about the centroid; the shear centre is there")
-        }
-        _ => {}
-    }
+    say_changes(im, line, &word, sizes);
     let walls = if word == "ARBITRARY" { sizes[0] as usize } else { 1 };
     let n1 = match rows.get(walls).map(Vec::as_slice) {
         Some([x, rest @ ..]) if [*x].iter().chain(rest).any(|x| *x != 0.0) => {
@@ -158,6 +138,23 @@ fn read_beam(im: &mut Importer, block: &KeywordBlock, is_general: bool) {
     let offset = [0, 1].map(|i| centroid[i] - shares[i] * sides[i]);
     card.what = SectionOf::Beam { keys, n1, offset };
     im.sections.push(card);
+}
+
+/// Tells what a section of this shape does otherwise in the deck.
+fn say_changes(im: &mut Importer, line: usize, word: &str, sizes: &[f64]) {
+    let how = match (word, im.dialect) {
+        ("GENERAL", Some(Dialect::Calculix)) => {
+            "beams bend along both axes; CalculiX 2.20 hardly bends U1 along the second one"
+        }
+        ("GENERAL", _) => "the shear areas are the area; Abaqus lowers them for slender elements",
+        ("BOX", _) if sizes[2] != sizes[4] || sizes[3] != sizes[5] => {
+            "the shear centre of a box of unlike walls is its centroid"
+        }
+        ("ARBITRARY", _) => "the shear centre is the centroid",
+        ("TRAPEZOID", _) => "the torsion constant is A⁴/(40 I), with I about the centroid; the shear centre is there",
+        _ => return,
+    };
+    im.change(line, how);
 }
 
 /// Adds the material that a general section has by its own moduli.

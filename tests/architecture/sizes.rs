@@ -26,6 +26,7 @@ const WIDE: Known = &[
     ("deck/loads.rs: Load", 20),
     ("deck/shells.rs: Shell", 19),
     ("deck/stages.rs: Stage", 20),
+    ("import/build.rs: Build", 16),
     ("import/file_content.rs: StepCard", 16),
     ("model/data/model.rs: Model", 18),
     ("model/data/output.rs: Output", 17),

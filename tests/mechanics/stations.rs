@@ -284,7 +284,7 @@ fn keys_that_differ_are_told() {
             "sections.root = {{ shape = \"box\", width = 0.06, height = 0.1, thickness = 0.004, fibres = [8, 2] }}\nsections.tip = {{ {tip} }}\n"
         );
         let text = format!(
-            "analysis = {{ kind = \"static\", end_time = 1.0, time_step = 1.0 }}\n{}",
+            "analysis = {{ kind = \"static\", end_time = 1.0, time_step = 1.0 }}\nsupports = [{{ at = \"a\", fix = \"all\" }}]\n{}",
             beam(2, TAPER).replace(&HEAD[HEAD.find("sections.root").expect("sections")..], &sections)
         );
         let source = rdsolve::diagnostic::Source::new("deck.toml", text, &[]);

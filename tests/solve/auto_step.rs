@@ -321,7 +321,8 @@ fn errors_are_those_asked_for() {
         ("heavy_top/pivot", 2.0, 1000, of(&[("top", 0), ("top", 1), ("top", 2)])),
         ("right_angle_cantilever", 12.0, 128, of(&[("elbow", 2), ("tip", 2)])),
         ("block_on_cantilever", 1.0, 100, of(&[("block", 0), ("block", 2), ("tip", 2)])),
-        ("extreme/stiff_spring_chain", 52.36, 32, of(&[("m2", 0), ("m3", 0)])),
+        // With 32 steps the reference would err by 8e-6, more than the run.
+        ("extreme/stiff_spring_chain", 52.36, 128, of(&[("m2", 0), ("m3", 0)])),
     ];
     for (deck, end, finest, columns) in scenes {
         let run = |step: &str| {
