@@ -140,7 +140,7 @@ fn read_beam(im: &mut Importer, block: &KeywordBlock, is_general: bool) {
     im.sections.push(card);
 }
 
-/// Tells what a section of this shape does otherwise in the deck.
+/// Tells how the deck's section of this shape differs.
 fn say_changes(im: &mut Importer, line: usize, word: &str, sizes: &[f64]) {
     let how = match (word, im.dialect) {
         ("GENERAL", Some(Dialect::Calculix)) => {

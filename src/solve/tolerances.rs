@@ -523,8 +523,8 @@ pub mod global_error {
     pub const WITHIN: f64 = 1.5;
     /// Ratio of the tolerances of the comparison run and the run: for a scheme of third order its steps are twice as long.
     pub const LOOSER: f64 = 8.0;
-    /// Least and largest ratio of the tolerances of two runs in a row. Estimates from far apart are too large: with a least ratio of 0.01
-    /// runs erred by a tenth of what was asked, and took two to three times the iterations.
+    /// Least and largest ratio of the tolerances of two runs in a row. Estimates from far apart are too large. With a least ratio of 0.01 runs
+    /// erred by a tenth of the request, and took two to three times the iterations.
     pub const CHANGE: [f64; 2] = [0.25, 0.5];
     /// Ratio to the steps of the run before above which a run is aborted: its motion cannot be resolved.
     pub const MOST_LONGER: usize = 30;

@@ -85,7 +85,7 @@ impl Newton {
         path: Option<PathCondition>,
     ) -> Result<StepReport, Failure> {
         let progress = self.begin_progress(cx, ws, &step, path.is_none());
-        // Loads that come at once are brought on in shorter steps, which their work needs.
+        // The work of sudden loads needs shorter steps.
         let is_load_step = path.is_none() && self.regime.has_load_control(cx) && ws.load_steps.sudden.is_none();
         let mut found = self.iterate(cx, ws, guards, step, progress, path);
         // Where whole sections yield, in shear too, tangents lead far away; the initial load method then contracts, and shorter steps do not.
