@@ -9,7 +9,7 @@ mod kept;
 mod look_ahead;
 mod trace;
 
-use crate::tolerances::global_error::{AIM, CHANGE, FAR_APART, LOST, SATURATED, WITHIN};
+use crate::tolerances::global_error::{AIM, CHANGE, CHANGE_WITH_EVENTS, FAR_APART, LOST, SATURATED, WITHIN};
 pub use kept::Kept;
 pub use look_ahead::LookAhead;
 pub use trace::{Trace, Unseen};
@@ -78,9 +78,9 @@ impl StepError {
         sum.cuts += effort.cuts;
     }
 
-    /// The tolerance of a run in place of one with this predicted error.
-    pub fn in_place_of(&self, predicted: f64) -> f64 {
-        let [least, most] = CHANGE;
+    /// The tolerance of a run in place of one with this predicted error. Errors that events leave show in runs far apart alone.
+    pub fn in_place_of(&self, predicted: f64, meets_events: bool) -> f64 {
+        let [least, most] = if meets_events { CHANGE_WITH_EVENTS } else { CHANGE };
         self.tolerance * (AIM * self.asked / predicted).clamp(least, most)
     }
 
@@ -113,7 +113,7 @@ impl StepError {
         // Two runs with nothing in common hardly show how much shorter steps must be; several such runs show that no length suffices.
         let lost = difference > SATURATED;
         let hopeless = lost && self.others > 2 && before.is_some_and(|before| estimate > 0.5 * before);
-        let tolerance = if lost { LOST * self.tolerance } else { self.in_place_of(estimate) };
+        let tolerance = if lost { LOST * self.tolerance } else { self.in_place_of(estimate, run.meets_events(other)) };
         ((!nears || estimate > WITHIN * self.asked) && !hopeless).then_some(tolerance)
     }
 
