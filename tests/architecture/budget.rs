@@ -10,7 +10,7 @@ const BUDGET: [(&str, usize); 11] = [
     ("deck", 5440),
     ("import", 10_990),
     ("model", 27_820),
-    ("solve", 36_330),
+    ("solve", 36_340),
     ("results", 11_550),
     ("study", 4280),
     ("sweep", 1670),
