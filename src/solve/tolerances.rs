@@ -526,7 +526,7 @@ pub mod global_error {
     /// Least and largest ratio of the tolerances of two runs in a row. Estimates from far apart are too large. With a least ratio of 0.01 runs
     /// erred by a tenth of the request, and took two to three times the iterations.
     pub const CHANGE: [f64; 2] = [0.25, 0.5];
-    /// The same for runs with events.
+    /// Least and largest ratio for runs with events.
     pub const CHANGE_WITH_EVENTS: [f64; 2] = [0.01, 0.5];
     /// Ratio to the steps of the run before above which a run is aborted: its motion cannot be resolved.
     pub const MOST_LONGER: usize = 30;
