@@ -48,7 +48,7 @@ pub fn connectors(build: &mut Build) {
             build.mesh.used.extend(cell.nodes.iter().filter(|node| **node != 0));
             let ends = [cell.nodes[0], cell.nodes[1]];
             let table = match (&kind[..], JOINTS.iter().find(|(word, _)| *word == kind)) {
-                (_, Some((_, joint))) => self::joint(build, &section, joint, (&name, ends)),
+                (_, Some((_, joint))) => self::joint(build, &section, joint, (&name, ends, at)),
                 ("AXIAL", _) => axial(build, &section, &name, ends),
                 ("BUSHING" | "CARDAN+CARTESIAN" | "CARTESIAN+ROTATION" | "CARTESIAN", _) => {
                     Some(bushing(build, &section, &name, ends))
@@ -150,16 +150,22 @@ fn refuse_apart(build: &mut Build, line: usize, [a, b]: [u64; 2]) -> bool {
     apart
 }
 
+/// True for a joint that the first stage does not have: its ends need not meet at t = 0.
+fn comes_later(build: &Build, cell: usize) -> bool {
+    let (acts, first) = (build.timeline.acting.get(&cell), build.timeline.stages.first());
+    acts.zip(first).is_some_and(|(acts, first)| !acts[first.step])
+}
+
 /// A joint between two nodes.
 fn joint(
     build: &mut Build,
     section: &ConnectorSection,
     joint: &JointOf,
-    (name, [a, b]): (&str, [u64; 2]),
+    (name, [a, b], cell): (&str, [u64; 2], usize),
 ) -> Option<DeckTable> {
     let refused = match joint.word {
         "distance" => refuse_one_place(build, section.line, [a, b]),
-        _ => refuse_apart(build, section.line, [a, b]),
+        _ => !comes_later(build, cell) && refuse_apart(build, section.line, [a, b]),
     };
     if refused {
         return None;

@@ -54,7 +54,10 @@ fn stages_of_links_and_joints() {
     assert_eq!(changed(&comes(line, "ADD=WITH STRAIN")), [""; 0]);
     refuses(&comes(SPRING.1, "ADD=STRAIN FREE"), &[], "springs along axes have no force where the mesh");
     assert_eq!(changed(&comes(&line.replace("SPRING", "DASHPOT"), "ADD")), [""; 0]);
-    // The nodes of a joint lie at one place.
+    // The nodes of a joint lie at one place, but for one that the first step does not have.
+    let joined = "*ELEMENT, TYPE=CONN3D2, ELSET=k\n7, 2, 9\n*CONNECTOR SECTION, ELSET=k\nHINGE\n*BOUNDARY";
+    let absent = edited(BEAM, &[("*BOUNDARY", joined), ("*CLOAD", "*MODEL CHANGE, REMOVE\nk\n*CLOAD")]);
+    has(&(absent + &step("*MODEL CHANGE, ADD\nk\n")), &[], None, "stages = \"step_2\"\n");
     let comes = |element: &str, how: &str| comes(element, how).replace("9, 0., 0., 1.", "9, 1., 0., 0.");
     let joint = "*ELEMENT, TYPE=CONN3D2, ELSET=k\n7, 2, 9\n*CONNECTOR SECTION, ELSET=k\nHINGE\n*BOUNDARY";
     assert_eq!(changed(&comes(joint, "ADD")), [""; 0]);
