@@ -1,5 +1,6 @@
 //! Deck → model, with all errors reported together. Each table is read after the tables it depends on.
 
+use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -82,6 +83,7 @@ use base::diagnostic::{Diagnostic, Source};
 use deck::Deck;
 use deck::read::ROOT;
 use mechanics::amplitude::Amplitude;
+use mechanics::elements::contact::ContactLaw;
 use mechanics::integrators::{Scheme, Stepping};
 
 /// The files that a deck names.
@@ -136,8 +138,9 @@ pub fn replan(source: &Source, reached: &[f64], planned: &Model) -> Result<Model
         model.nodes[*node].is_number = planned.nodes[*node].is_number;
     }
     model.reductions.clone_from(&planned.reductions);
+    let known: HashMap<&str, &Contact> = planned.each::<Contact>().map(|known| (known.name.as_str(), known)).collect();
     for contact in model.each_mut::<Contact>() {
-        if let Some(known) = planned.each::<Contact>().find(|known| known.name == contact.name) {
+        if let Some(known) = known.get(contact.name.as_str()) {
             (contact.law, contact.chosen) = (known.law, known.chosen.clone());
         }
     }
@@ -223,18 +226,17 @@ fn each_stage(sequence: &StageSequence, ended: usize, files: Files) -> (Vec<Mode
 /// Gives a contact the same stiffness in all stages, the largest of them; otherwise bodies at rest on it would sink or rise between stages.
 fn share_contact_laws(models: &mut [Model]) {
     let chosen = models.iter().flat_map(|model| model.each::<Contact>()).filter(|contact| contact.chosen.is_some());
-    let mut laws: Vec<Contact> = Vec::new();
+    let mut laws: HashMap<String, (Option<ContactLaw>, Option<String>)> = HashMap::new();
     for contact in chosen {
-        let stiffness = |contact: &Contact| contact.law.as_ref().map_or(0.0, |law| law.stiffness);
-        match laws.iter_mut().find(|known| known.name == contact.name) {
-            Some(known) if stiffness(known) >= stiffness(contact) => {}
-            Some(known) => known.clone_from(contact),
-            None => laws.push(contact.clone()),
+        let stiffness = |law: &Option<ContactLaw>| law.as_ref().map_or(0.0, |law| law.stiffness);
+        match laws.get(&contact.name) {
+            Some((known, _)) if stiffness(known) >= stiffness(&contact.law) => {}
+            _ => drop(laws.insert(contact.name.clone(), (contact.law, contact.chosen.clone()))),
         }
     }
     for contact in models.iter_mut().flat_map(|model| model.each_mut::<Contact>()) {
-        if let Some(known) = laws.iter().find(|known| known.name == contact.name) {
-            (contact.law, contact.chosen) = (known.law, known.chosen.clone());
+        if let Some(known) = laws.get(&contact.name) {
+            (contact.law, contact.chosen) = known.clone();
         }
     }
 }

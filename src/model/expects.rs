@@ -16,6 +16,7 @@ use base::quantities::{self, Column, PLASTIC_STRAIN, QUATERNION, SECTION_STRESSE
 use deck::expect as words;
 use deck::parts::PartIndex;
 use deck::words::Table;
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// The remedy where a plastic strain of an elastic part is expected.
@@ -28,6 +29,8 @@ const RIGID_HINT: &str = "remove the part from `parts` of its body, or expect a 
 struct Expects<'a, 'd> {
     scene: &'a Scene<'d>,
     topology: &'a Topology,
+    /// The restrained directions at all nodes of a label.
+    held: HashMap<&'a str, [bool; 6]>,
     is_arc_length: bool,
     cases: &'a LoadCases,
     report: &'a mut Report<'d>,
@@ -41,7 +44,9 @@ pub(super) fn expects<'d>(
     cases: &LoadCases,
     report: &mut Report<'d>,
 ) -> Vec<Expect> {
-    let mut tables = Expects { scene, topology, is_arc_length, cases, report };
+    let mut held: HashMap<&str, [bool; 6]> = HashMap::new();
+    topology.restraints().for_each(|of| held.entry(topology.label(of.node)).or_default()[of.dof] = true);
+    let mut tables = Expects { scene, topology, held, is_arc_length, cases, report };
     let (has_modes, response) = (scene.analysis.has_modes(), scene.analysis.response().is_some());
     let is_seen = |entry: &words::Expect| {
         let of_response = response && !entry.is_of_modes() && entry.time.is_none() && entry.when.is_none();
@@ -290,9 +295,10 @@ impl<'d> Expects<'_, 'd> {
             return Some((ExpectAt::Analysis, vec![quantities::TIME]));
         }
         // Ties share no names with other things, which come first.
-        let tie =
-            self.scene.deck.ties.iter().position(|tie| tie.name.as_ref().is_some_and(|at| at.value == name.value));
-        if let Some(tie) = tie.filter(|_| self.scene.names.declared(&name.value).is_none()) {
+        let is_meant = |tie: &At<Table<deck::ties::Tie>>| tie.name.as_ref().is_some_and(|at| at.value == name.value);
+        if self.scene.names.declared(&name.value).is_none()
+            && let Some(tie) = self.scene.deck.ties.iter().position(is_meant)
+        {
             return Some((ExpectAt::Tie(tie), quantities::TIE.to_vec()));
         }
         match self.scene.place_or_node(name) {
@@ -370,15 +376,9 @@ impl<'d> Expects<'_, 'd> {
 
     /// The columns of reactions at a node: the directions restrained by supports, at the node or at the support point of its name.
     fn reactions(&self, node: usize) -> Vec<Column> {
-        let list = &self.topology.list;
-        let is_here = |held: usize| held == node || list[held].label == list[node].label;
-        let mut columns = Vec::new();
-        for (dof, column) in quantities::REACTION.into_iter().enumerate() {
-            if self.topology.restraints().any(|held| held.dof == dof && is_here(held.node)) {
-                columns.push(column);
-            }
-        }
-        columns
+        let held = self.held.get(self.topology.label(node)).copied().unwrap_or_default();
+        let columns = quantities::REACTION.into_iter().zip(held);
+        columns.filter_map(|(column, is_held)| is_held.then_some(column)).collect()
     }
 
     /// A surface; one with errors, which have been reported, has no parts.

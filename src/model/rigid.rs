@@ -143,7 +143,7 @@ impl<'d> Maker<'_, 'd> {
             }
             node = on;
         }
-        if let Some(other) = self.bodies.iter().find(|body| body.node == node) {
+        if let Some(other) = Body::at(self.bodies, node).map(|at| &self.bodies[at]) {
             let message = format!("{} and body `{}` share nodes", owner.what, other.name);
             return self.report.error_with(owner.span, message, "make one body of them: list both in its `parts`");
         }

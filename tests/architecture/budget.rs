@@ -9,7 +9,7 @@ const BUDGET: [(&str, usize); 11] = [
     ("mechanics", 36_410),
     ("deck", 5440),
     ("import", 10_990),
-    ("model", 27_820),
+    ("model", 27_870),
     ("solve", 36_340),
     ("results", 11_550),
     ("study", 4280),

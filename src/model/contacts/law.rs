@@ -3,7 +3,7 @@
 use crate::contacts::method;
 use crate::contacts::opposite::Opposite;
 use crate::contacts::stiffness::{ChosenStiffness, Meets};
-use crate::data::{Mass, SAFE_WHERE_STRUCK, StepLength};
+use crate::data::{Body, SAFE_WHERE_STRUCK, StepLength};
 use crate::places::nodes::Topology;
 use crate::procedure::scaled_masses::{KEY, is_central};
 use crate::report::{Owner, Report};
@@ -13,6 +13,7 @@ use base::names::{short, to_digits};
 use deck::contacts as words;
 use mechanics::elements::contact::restitution::{self, Loss};
 use mechanics::elements::contact::{ContactLaw, ContactPoint, ConvexBody, MOST_NODES, TouchKind};
+use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 
 /// Fraction of 1/√(k/m) for one step of an impact: an impact then needs nine steps or more.
@@ -31,12 +32,14 @@ const EXPLICIT_STEPS: f64 = 5.0;
 pub struct LawReader<'a, 'd> {
     /// The scene so far.
     pub scene: &'a Scene<'d>,
-    /// The point masses of the deck.
-    pub masses: &'a [Mass],
+    /// The sum of the point masses of the deck at nodes that have some.
+    pub point_masses: &'a HashMap<usize, f64>,
     /// For each node the mass that it moves.
     pub at_nodes: &'a [f64],
     /// The acceleration of gravity, global.
     pub gravity: Vec3,
+    /// The extent of the scene from its first node.
+    pub extent: f64,
     /// The nodes and how they are connected.
     pub topology: &'a Topology,
 }
@@ -89,7 +92,7 @@ impl LawReader<'_, '_> {
         };
         let given = contact.stiffness.as_ref().map(|at| at.value);
         let stiffness = given.or(chosen.as_ref().map(|chosen| chosen.stiffness))?;
-        let sizes = (self.size(opposite, touching), self.extent());
+        let sizes = (self.size(opposite, touching), self.extent);
         let by_points = touching.1.is_empty() && !matches!(opposite, Opposite::Facets(_));
         let tolerance = method::tolerance(self.scene, owner, contact, by_points, sizes, report);
         if let Some(chosen) = chosen.as_ref().filter(|_| tolerance.is_none()) {
@@ -107,17 +110,11 @@ impl LawReader<'_, '_> {
         Some((law, chosen.map(|chosen| chosen.reason)))
     }
 
-    /// The extent of the scene from its first node.
-    fn extent(&self) -> f64 {
-        let first = self.topology.x(0);
-        self.topology.list.iter().map(|node| (node.x - first).norm()).fold(0.0, f64::max)
-    }
-
     fn law(&self, contact: &words::Contact, meeting: &Meeting, stiffness: f64) -> ContactLaw {
         let dynamic = self.scene.analysis.is_dynamic();
         let mass = if meeting.least.is_finite() { meeting.least } else { meeting.mean };
         let frequency = if mass > 0.0 { (stiffness / mass).sqrt() } else { f64::INFINITY };
-        let extent = self.extent();
+        let extent = self.extent;
         // An approach that sinks in no deeper than the weight does is no impact. Where there is no weight, a trace of length.
         let floor = (self.gravity.norm() / frequency).max(if mass > 0.0 { 1e-7 * extent * frequency } else { 0.0 });
         let loss = match (&contact.restitution, &contact.damping) {
@@ -279,7 +276,7 @@ impl LawReader<'_, '_> {
     fn other(&self, opposite: Opposite) -> Other {
         let Opposite::Facets(_) = opposite else {
             let carrier = opposite.node();
-            let on_ground = !self.scene.bodies.iter().any(|body| body.node == carrier);
+            let on_ground = Body::at(&self.scene.bodies, carrier).is_none();
             let mass = if on_ground { f64::INFINITY } else { self.mass(carrier) };
             return Other { mass, least: mass, free: mass, rigid: true };
         };
@@ -299,15 +296,15 @@ impl LawReader<'_, '_> {
 
     /// True where point masses are more than half of the mass at a node.
     fn is_weighted(&self, node: usize) -> bool {
-        let own: f64 = self.masses.iter().filter(|mass| mass.node == node).map(|mass| mass.mass).sum();
+        let own = self.point_masses.get(&node).copied().unwrap_or(0.0);
         own > 0.5 * self.at_nodes.get(node).copied().unwrap_or(0.0)
     }
 
     /// The compliance r²/J from the rotation of a body, at a point or at a lever from it.
     fn ease(&self, point: &ContactPoint, lever: f64) -> f64 {
         let root = self.topology.root(point.nodes[0]);
-        let body = self.scene.bodies.iter().find(|body| body.node == root);
-        body.map_or(0.0, |body| {
+        Body::at(&self.scene.bodies, root).map_or(0.0, |body| {
+            let body = &self.scene.bodies[body];
             let r = (self.topology.x(point.nodes[0]) - self.topology.x(root)).norm() + lever;
             if body.inertia.trace() > 0.0 { 3.0 * r * r / body.inertia.trace() } else { 0.0 }
         })
@@ -315,8 +312,8 @@ impl LawReader<'_, '_> {
 
     /// True for the node of a body or a point mass that belongs to no deformable part.
     fn is_lump(&self, node: usize) -> bool {
-        self.scene.bodies.iter().any(|body| body.node == node)
-            || self.masses.iter().any(|mass| mass.node == node) && !self.scene.parts.has_node(node)
+        Body::at(&self.scene.bodies, node).is_some()
+            || self.point_masses.contains_key(&node) && !self.scene.parts.has_node(node)
     }
 }
 

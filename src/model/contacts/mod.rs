@@ -19,7 +19,7 @@ use crate::contacts::method::is_augmented;
 use crate::contacts::opposite::Opposite;
 use crate::contacts::points::{Finder, OnConvex};
 use crate::contacts::surface::read_surface;
-use crate::data::{CarriedSurface, Contact, FacetSurface, Joint, Mass, TouchedSurface};
+use crate::data::{Body, CarriedSurface, Contact, FacetSurface, Joint, Mass, TouchedSurface};
 use crate::places::nodes::Topology;
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
@@ -32,6 +32,7 @@ use mechanics::elements::contact::{
     ContactPoint, ConvexBody, Facet, FacetTouchers, Surface, SurfaceShape, Toucher, convex, least_gap, pair_gap,
 };
 use mechanics::state::Node;
+use std::cell::Cell;
 use std::collections::{BTreeSet, HashMap};
 
 /// Reads `[[contacts]]`, after all constraints: nodes that depend on the surface's own body do not touch it, and
@@ -48,7 +49,16 @@ pub fn contacts<'d>(
         return Vec::new();
     }
     let at_nodes = masses_at_nodes(scene, masses, topology);
-    let setting = LawSetting { scene, masses, joints, at_nodes: &at_nodes, gravity };
+    let mut point_masses = HashMap::new();
+    masses.iter().for_each(|mass| *point_masses.entry(mass.node).or_insert(0.0) += mass.mass);
+    let setting = LawSetting {
+        scene,
+        point_masses: &point_masses,
+        joints,
+        at_nodes: &at_nodes,
+        gravity,
+        extent: Cell::new((0, 0.0)),
+    };
     let mut contacts = Vec::new();
     for (index, contact) in scene.deck.contacts.iter().enumerate() {
         let (name, owner) = report.named(("contact", "contacts", index), contact.name.as_ref(), &contact.span);
@@ -61,10 +71,23 @@ pub fn contacts<'d>(
 /// The data shared by the laws of all contacts.
 struct LawSetting<'a, 'd> {
     scene: &'a Scene<'d>,
-    masses: &'a [Mass],
+    point_masses: &'a HashMap<usize, f64>,
     joints: &'a [Joint],
     at_nodes: &'a [f64],
     gravity: Vec3,
+    /// The number of nodes so far, and their extent.
+    extent: Cell<(usize, f64)>,
+}
+
+impl LawSetting<'_, '_> {
+    /// The extent of the scene from its first node; each node is looked at once.
+    fn extent(&self, topology: &Topology) -> f64 {
+        let (count, known) = self.extent.get();
+        let first = topology.x(0);
+        let extent = topology.list[count..].iter().map(|node| (node.x - first).norm()).fold(known, f64::max);
+        self.extent.set((topology.list.len(), extent));
+        extent
+    }
 }
 
 /// A contact with a shape.
@@ -76,7 +99,7 @@ fn of_shape<'d>(
     topology: &mut Topology,
     report: &mut Report<'d>,
 ) -> Option<Contact> {
-    let &LawSetting { scene, masses, at_nodes, gravity, .. } = setting;
+    let &LawSetting { scene, point_masses, at_nodes, gravity, .. } = setting;
     let surface = report.require(owner, "surface", &contact.surface);
     let surface = surface.and_then(|table| read_surface(name, table, scene, topology, report));
     let carrier = surface.as_ref().map(|(node, _)| *node);
@@ -85,7 +108,8 @@ fn of_shape<'d>(
     let mut finder = Finder { on_convex, ..Finder::new(scene, topology, report) };
     let points = finder.touching(owner, name, contact, carrier);
     let (solids, mut sight) = (finder.convex, finder.sight);
-    let is_carried_by_tube = |node: usize| scene.bodies.iter().any(|body| body.node == node && body.shape.has_hole());
+    let is_carried_by_tube =
+        |node: usize| Body::at(&scene.bodies, node).is_some_and(|body| scene.bodies[body].shape.has_hole());
     let is_tube = |(node, surface): &(usize, Surface)| {
         matches!(surface.shape, SurfaceShape::Cylinder(_)) && is_carried_by_tube(*node)
     };
@@ -95,7 +119,8 @@ fn of_shape<'d>(
     let between = contact.points.as_ref().map(|at| at.value);
     sight.check(owner, (between, by_points), &surface, report);
     let (mut law, mut chosen) = (None, None);
-    let chooser = LawReader { scene, masses, at_nodes, gravity, topology: &*topology };
+    let extent = setting.extent(topology);
+    let chooser = LawReader { scene, point_masses, at_nodes, gravity, extent, topology: &*topology };
     let opposite = Opposite::Shape(node, &surface);
     let size = chooser.size(opposite, (&points, &solids));
     if !is_zone {
@@ -140,7 +165,7 @@ fn of_facets<'d>(
     topology: &mut Topology,
     report: &mut Report<'d>,
 ) -> Option<Contact> {
-    let &LawSetting { scene, masses, joints, at_nodes, gravity } = setting;
+    let &LawSetting { scene, point_masses, joints, at_nodes, gravity, .. } = setting;
     let mut finder = Finder::new(scene, topology, report);
     let found = read_facets(&mut finder, owner, name, contact);
     let is_zone = is_zone(owner, contact, scene.analysis.has_inertia(), report);
@@ -158,7 +183,8 @@ fn of_facets<'d>(
     if is_zone {
         return Some(found);
     }
-    let chooser = LawReader { scene, masses, at_nodes, gravity, topology: &*topology };
+    let extent = setting.extent(topology);
+    let chooser = LawReader { scene, point_masses, at_nodes, gravity, extent, topology: &*topology };
     let (opposite, touching) = (Opposite::Facets(&facets), (&found.points[..], &found.convex[..]));
     let (law, reason) = chooser.contact_law(owner, contact, opposite, touching, report)?;
     let at_rest = chooser.depth_at_rest(opposite, touching, law.stiffness);
@@ -257,8 +283,11 @@ fn check_start(
         let x: Vec3 = point.nodes().iter().zip(point.weights).map(|(&node, w)| w * topology.x(node)).sum();
         surface.distance(&(x - center)) - point.radius
     };
-    let at_rest_there: Vec<Node> = topology.list.iter().map(|node| Node::at_rest(node.x)).collect();
-    let of_convex = pair_gap(surface, node, solids, &at_rest_there);
+    let own = std::iter::once(node).chain(solids.iter().map(|one| one.node));
+    let own: Vec<Node> = own.map(|node| Node::at_rest(topology.x(node))).collect();
+    let solids_there: Vec<ConvexBody> =
+        solids.iter().enumerate().map(|(k, one)| ConvexBody { node: 1 + k, ..one.clone() }).collect();
+    let of_convex = pair_gap(surface, 0, &solids_there, &own);
     let least = points.iter().map(gap).fold(of_convex, f64::min);
     let nodes = points.iter().map(|point| point.nodes[0]).chain(solids.iter().map(|one| one.node));
     let size = nodes.map(|node| topology.x(node).norm()).fold(center.norm(), f64::max);

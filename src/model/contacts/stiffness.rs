@@ -2,6 +2,7 @@
 //! lower it to what they follow; shorter ones do not, so that results converge with the step.
 
 use crate::contacts::opposite::Opposite;
+use crate::data::Body;
 use crate::places::nodes::Topology;
 use crate::scene::Scene;
 use crate::values::{vec3, vec3_or_zero};
@@ -162,7 +163,7 @@ impl Meets<'_, '_> {
     fn smallest(&self, counts: impl Fn(&ContactPoint) -> bool) -> f64 {
         let body = |point: &ContactPoint| {
             let root = self.topology.root(point.nodes[0]);
-            let body = self.scene.bodies.iter().find(|body| body.node == root)?;
+            let body = &self.scene.bodies[Body::at(&self.scene.bodies, root)?];
             let points = body.shape.outline().points;
             let width = |i: usize| {
                 let side = points.iter().map(|p| p[i]);
@@ -201,7 +202,7 @@ impl Meets<'_, '_> {
 
     /// The initial velocity and angular velocity of a node in the deck, in any stage.
     fn begins_with(&self, node: usize) -> [Vec3; 2] {
-        let of_body = self.scene.bodies.iter().position(|body| body.node == node);
+        let of_body = Body::at(&self.scene.bodies, node);
         match of_body.and_then(|index| self.whole_deck().bodies.get(index)) {
             Some(body) if self.scene.stage.is_some() => [&body.velocity, &body.angular_velocity].map(vec3_or_zero),
             _ => {

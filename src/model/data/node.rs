@@ -45,6 +45,13 @@ pub struct Body {
     pub shape: Arc<dyn SolidShape>,
 }
 
+impl Body {
+    /// The index of the body at a node among bodies, which stand in the order of their nodes.
+    pub fn at(bodies: &[Body], node: usize) -> Option<usize> {
+        bodies.binary_search_by_key(&node, |body| body.node).ok()
+    }
+}
+
 /// A point mass with optional rotary inertia.
 #[derive(Debug, Clone)]
 pub struct Mass {

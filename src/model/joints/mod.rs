@@ -18,6 +18,7 @@ use mechanics::amplitude::{Amplitude, Side};
 use mechanics::constraints::joint::{ConstraintEquation, rotations, translations};
 use mechanics::constraints::joints::JointKind;
 use mechanics::state;
+use std::collections::HashMap;
 
 /// Reads `[[joints]]`. Links along their coordinates follow the `links` of the deck, and motions without an amplitude add one.
 pub fn joints<'d>(
@@ -120,10 +121,10 @@ pub fn check_joints(scene: &Scene, joints: &[Joint], amplitudes: &[Amplitude], n
     let is_fixed =
         |node: usize| (0..6).all(|dof| nodes.restraint(node, dof).is_some_and(|restraint| restraint.motion.is_none()));
     let duration = scene.analysis.end_time - scene.analysis.begin;
+    let by_name: HashMap<&str, &Joint> = joints.iter().rev().map(|made| (made.name.as_str(), made)).collect();
     for joint in &scene.deck.joints {
         // Joints are found by name, because a joint may be missing after errors elsewhere, such as an unreadable mesh.
-        let named = |made: &&Joint| joint.name.as_ref().is_some_and(|name| name.value == made.name);
-        let Some(made) = joints.iter().find(named) else { continue };
+        let Some(made) = joint.name.as_ref().and_then(|name| by_name.get(name.as_str())) else { continue };
         let (ends, name) = (made.ends.map(|node| nodes.carrier(node)), &made.name);
         if ends[0] == ends[1] {
             let label = nodes.label(ends[0]);
@@ -132,9 +133,12 @@ pub fn check_joints(scene: &Scene, joints: &[Joint], amplitudes: &[Amplitude], n
         } else if ends.iter().all(|&end| is_fixed(end)) {
             let message = format!("both ends of joint `{name}` are fixed, so it holds nothing");
             report.error_with::<()>(&joint.span, message, "remove the joint, or one of the supports");
-        } else if let Some((given, driven)) =
-            initial_rates(made, ends.map(is_fixed), (amplitudes, duration, coordinate::size(scene, nodes, name)), nodes)
-            && let Some(motion) = &joint.motion
+        } else if let Some((given, driven)) = initial_rates(
+            made,
+            ends.map(is_fixed),
+            (amplitudes, duration, &|| coordinate::size(scene, nodes, name)),
+            nodes,
+        ) && let Some(motion) = &joint.motion
         {
             let (given, driven) = (short(given), short(driven));
             let message =
@@ -152,7 +156,7 @@ const NOWHERE: f64 = 1e-9;
 fn initial_rates(
     joint: &Joint,
     fixed: [bool; 2],
-    (amplitudes, duration, extent): (&[Amplitude], f64, f64),
+    (amplitudes, duration, extent): (&[Amplitude], f64, &dyn Fn() -> f64),
     nodes: &Nodes,
 ) -> Option<(f64, f64)> {
     /// Velocities are written with six digits.
@@ -160,7 +164,7 @@ fn initial_rates(
     let coordinate = joint.coordinate.as_ref()?;
     let drive = coordinate.drive?;
     let PrescribedMotion { amplitude, scale, history } = nodes.restraint(drive.node, 0)?.motion.clone()?;
-    let amplitude = &amplitudes[amplitude];
+    let (amplitude, extent) = (&amplitudes[amplitude], extent());
     let driven = drive.ratio
         * scale
         * match history {

@@ -1,7 +1,8 @@
 //! The default scheme of automatic steps: an explicit one of high order for models without stiff parts, otherwise an implicit one.
 
-use crate::data::{LinearSpring, Model};
+use crate::data::{Body, LinearSpring, Model};
 use mechanics::integrators::{Scheme, automatic_scheme};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Largest phase ω T of the fastest vibration over a run for explicit steps; they need about two evaluations per radian.
@@ -21,12 +22,14 @@ fn is_soft(model: &Model) -> bool {
         return false;
     }
     let mut fastest = vec![0.0; model.nodes.len()];
+    let masters: HashMap<usize, usize> =
+        model.constraints.dependents.iter().map(|dependent| (dependent.node, dependent.master)).collect();
     for part in &model.parts {
         let Some(LinearSpring { ends, stiffness, damping }) = part.linear_spring() else { return false };
         let damping = damping + model.damping.beta(&part.own_damping()) * stiffness;
         for end in ends {
-            let master = master(model, end);
-            let Some(body) = model.bodies.iter().find(|body| body.node == master) else { continue };
+            let master = masters.get(&end).copied().unwrap_or(end);
+            let Some(body) = Body::at(&model.bodies, master).map(|at| &model.bodies[at]) else { continue };
             let arm = (model.nodes[end].x - model.nodes[master].x).norm();
             let least = body.inertia.symmetric_eigenvalues().min();
             let flexibility = 1.0 / body.mass + if arm > 0.0 { arm * arm / least } else { 0.0 };
@@ -40,17 +43,12 @@ fn is_soft(model: &Model) -> bool {
 
 /// True where every node is a body, fixed on one, or held: others may have no mass.
 fn all_move_as_bodies(model: &Model) -> bool {
-    let held = |node: usize| model.constraints.restraints.iter().filter(|held| held.node == node).count();
-    let follows = |node: usize| {
-        let of_node = model.constraints.dependents.iter().find(|dependent| dependent.node == node);
-        of_node.is_some_and(|dependent| dependent.dofs[..3].iter().all(|follows| *follows))
-    };
-    let is_body = |node: usize| model.bodies.iter().any(|body| body.node == node);
+    let (mut held, mut follows) = (vec![0; model.nodes.len()], vec![false; model.nodes.len()]);
+    model.constraints.restraints.iter().for_each(|restraint| held[restraint.node] += 1);
+    for dependent in &model.constraints.dependents {
+        follows[dependent.node] = dependent.dofs[..3] == [true; 3];
+    }
     let is_place = |node: &usize| !model.nodes[*node].is_number;
-    (0..model.nodes.len()).filter(is_place).all(|node| is_body(node) || follows(node) || held(node) >= 3)
-}
-
-/// The node that this one is fixed on, or the node itself.
-fn master(model: &Model, node: usize) -> usize {
-    model.constraints.dependents.iter().find(|dependent| dependent.node == node).map_or(node, |of| of.master)
+    let is_body = |node: usize| Body::at(&model.bodies, node).is_some();
+    (0..model.nodes.len()).filter(is_place).all(|node| is_body(node) || follows[node] || held[node] >= 3)
 }

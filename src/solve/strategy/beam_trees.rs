@@ -52,17 +52,14 @@ pub struct BeamTrees {
 }
 
 /// EA L²/EI over the length of a tree: how much more easily it bends than it stretches; zero without beams.
-fn slenderness(cx: &Context, branches: &[Branch]) -> f64 {
-    let nodes = at_rest(cx.model);
-    let history = vec![0.0; cx.system.history];
-    let now = Configuration { nodes: &nodes, history: &history, dt: 0.0, previous: None };
+fn slenderness(cx: &Context, branches: &[Branch], now: &Configuration) -> f64 {
     let (mut length, mut largest) = (0.0, 0.0f64);
     for branch in branches.iter().filter(|branch| branch.master.is_none()) {
         let of = branch.nodes();
-        let line = nodes[of[of.len() - 1]].x - nodes[of[0]].x;
+        let line = now.nodes[of[of.len() - 1]].x - now.nodes[of[0]].x;
         length += line.norm();
         let [group, e] = branch.element;
-        largest = largest.max(stretching_to_bending(&cx.system.groups[group], (e, of), &now, &line));
+        largest = largest.max(stretching_to_bending(&cx.system.groups[group], (e, of), now, &line));
     }
     largest * length * length
 }
@@ -99,24 +96,39 @@ struct Graph {
     dependent: Vec<bool>,
 }
 
+/// The nodes and branches that a search has reached.
+struct Seen {
+    nodes: Vec<bool>,
+    branches: Vec<bool>,
+}
+
+impl Seen {
+    fn new(graph: &Graph) -> Seen {
+        Seen { nodes: vec![false; graph.at.len()], branches: vec![false; graph.branches.len()] }
+    }
+}
+
 impl BeamTrees {
     /// The trees without joints and without deformable parts other than beams; `None` if there are none.
     pub fn find(cx: &Context) -> Option<BeamTrees> {
         let graph = Graph::new(cx);
         let mut trees = BeamTrees { free: Vec::new(), slenderness: 0.0, branches: Vec::new(), nodes: Vec::new() };
-        let mut seen = vec![false; graph.at.len()];
+        let nodes = at_rest(cx.model);
+        let history = vec![0.0; cx.system.history];
+        let now = Configuration { nodes: &nodes, history: &history, dt: 0.0, previous: None };
+        let (mut seen, mut from_root) = (Seen::new(&graph), Seen::new(&graph));
         for start in 0..graph.at.len() {
-            if seen[start] || graph.at[start].is_empty() {
+            if seen.nodes[start] || graph.at[start].is_empty() {
                 continue;
             }
             let (nodes, _) = graph.grow(start, &mut seen);
-            trees.add(cx, &graph, &nodes);
+            trees.add((cx, &now), &graph, &nodes, &mut from_root);
         }
         (!trees.nodes.is_empty()).then_some(trees)
     }
 
-    /// Adds the tree of these connected nodes, if it is one.
-    fn add(&mut self, cx: &Context, graph: &Graph, nodes: &[usize]) {
+    /// Adds the tree of these connected nodes, if it is one. `seen`: those of trees before.
+    fn add(&mut self, (cx, now): (&Context, &Configuration), graph: &Graph, nodes: &[usize], seen: &mut Seen) {
         let unknown = |node: usize, dof: usize| cx.plan.dofs.row(node, dof).is_some();
         let is_held = |node: &usize| !graph.dependent[*node] && (0..3).all(|dof| !unknown(*node, dof));
         let turns = |node: usize| (3..6).filter(|&dof| unknown(node, dof)).count() != 2;
@@ -130,9 +142,8 @@ impl BeamTrees {
         if held.next().is_some() || !nodes.iter().all(fits) {
             return;
         }
-        let mut seen = vec![false; graph.at.len()];
-        let (nodes, Some(branches)) = graph.grow(root, &mut seen) else { return };
-        let slenderness = slenderness(cx, &branches);
+        let (nodes, Some(branches)) = graph.grow(root, seen) else { return };
+        let slenderness = slenderness(cx, &branches, now);
         if slenderness >= SLENDER {
             self.slenderness = slenderness.max(self.slenderness);
             if first.is_none() {
@@ -177,21 +188,20 @@ impl Graph {
     }
 
     /// All nodes connected to `start`, and the branches from there outwards; `None` in place of branches that close a loop.
-    fn grow(&self, start: usize, seen: &mut [bool]) -> (Vec<usize>, Option<Vec<Branch>>) {
+    fn grow(&self, start: usize, seen: &mut Seen) -> (Vec<usize>, Option<Vec<Branch>>) {
         let (mut nodes, mut outwards, mut is_tree) = (vec![start], Vec::new(), true);
-        let mut used = vec![false; self.branches.len()];
         let mut queue = VecDeque::from([start]);
-        seen[start] = true;
+        seen.nodes[start] = true;
         while let Some(node) = queue.pop_front() {
             for &k in &self.at[node] {
-                if std::mem::replace(&mut used[k], true) {
+                if std::mem::replace(&mut seen.branches[k], true) {
                     continue;
                 }
                 let mut branch = self.branches[k];
                 branch.parent = branch.nodes().iter().position(|&of| of == node).unwrap_or(0);
                 for &next in branch.nodes().iter().filter(|&&next| next != node) {
-                    is_tree &= !seen[next];
-                    if !std::mem::replace(&mut seen[next], true) {
+                    is_tree &= !seen.nodes[next];
+                    if !std::mem::replace(&mut seen.nodes[next], true) {
                         nodes.push(next);
                         queue.push_back(next);
                     }

@@ -27,8 +27,9 @@ use base::snapshot::{Keep, Snapshot};
 use mechanics::constraints::rigid_link::RigidLink;
 use mechanics::integrators::Coefficients;
 use mechanics::state::{Increment, Node};
-use model::{AnalysisKind, Model};
+use model::{AnalysisKind, Body, Model};
 use nalgebra::SymmetricEigen;
+use std::collections::HashSet;
 use std::iter::Peekable;
 use std::slice::Iter;
 
@@ -88,12 +89,13 @@ impl TurningBody {
             return Vec::new();
         }
         let carries = carriers(model.nodes.len(), (inertias, consistent), links);
-        let held = |node: usize| model.constraints.restraints.iter().any(|held| held.node == node && held.dof > 2);
-        let follows = |node: usize| links.iter().any(|link| link.node == node && link.dofs[3..].contains(&true));
-        let is_body = |node: usize| model.bodies.iter().any(|body| body.node == node);
+        let held = model.constraints.restraints.iter().filter(|held| held.dof > 2).map(|held| held.node);
+        let follow = links.iter().filter(|link| link.dofs[3..].contains(&true)).map(|link| link.node);
+        let led: HashSet<usize> = held.chain(follow).collect();
+        let is_body = |node: usize| Body::at(&model.bodies, node).is_some();
         let turning = |inertia: &mut Inertia| {
             let Inertia { node, J0, .. } = *inertia;
-            let alone = |node: usize| is_body(node) && !carries[node] && !held(node) && !follows(node);
+            let alone = |node: usize| is_body(node) && !carries[node] && !led.contains(&node);
             let J0_inverse = inverse_of_a_body(&J0).filter(|_| alone(node))?;
             let (own, by_momentum) = about_thin_axes(&J0).unzip();
             inertia.turns = true;

@@ -5,7 +5,7 @@ use super::explanation::Explanation;
 use crate::system::System;
 use base::names::short;
 use mechanics::elements::contact::{ConvexBody, Facet, FacetTouchers};
-use model::{CarriedSurface, Contact, Model, TouchedSurface};
+use model::{Body, CarriedSurface, Contact, Model, TouchedSurface};
 
 /// Adds lines about contacts. Parts may pass a monitor unnoticed, because its gaps are only the gaps of its points; its line reports this.
 pub fn explain(text: &mut Explanation, model: &Model, _: &System) {
@@ -51,8 +51,8 @@ fn sides_in_words(model: &Model, contact: &Contact) -> String {
     let faces = match &contact.surface {
         TouchedSurface::Facets(faces) => faces,
         TouchedSurface::Shape(CarriedSurface { node, surface }) => {
-            let carrier = model.bodies.iter().find(|body| body.node == *node);
-            let on = carrier.map_or("the ground".to_string(), |body| format!("body `{}`", body.name));
+            let carrier = Body::at(&model.bodies, *node);
+            let on = carrier.map_or("the ground".to_string(), |body| format!("body `{}`", model.bodies[body].name));
             return format!("{touching} against a {} on {on}", surface.shape.word());
         }
     };
