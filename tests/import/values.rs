@@ -57,6 +57,23 @@ fn a_rigid_edge_turned_by_a_moment() {
     near(moves(&deck("rigid_edge"), "mesh.100").0[2], -3.999986e-3, 1e-5);
 }
 
+/// Two strips with stiff ends, as PrePoMax writes them. The first is pulled beside its mid-surface: F L/(E A) and the constant curvature
+/// F e/(E I), which elements have exactly. The second is a cantilever with shear; rows of nodes 10 apart hold its end, and the strip between
+/// them bends under the moment there. Its elements have constant curvature, which misses h²/12 over the square of the arm.
+#[test]
+fn brackets_of_a_pre_processor() {
+    let (bending, length, arm) = (210_000.0 * 20.0 * 8.0 / 12.0, 200.0, 50.0);
+    let slope = 100.0 * 1.0 * length / bending;
+    let moved = moves(&deck("two_brackets"), "mesh.201").0;
+    near(moved[2], -slope * (0.5 * length + arm), 1e-8);
+    near(moved[0], 100.0 * length / (210_000.0 * 40.0) + slope * 1.0, 1e-8);
+    let (shear, rows) = (5.0 / 6.0 * 105_000.0 * 40.0, 10.0);
+    let sunk = (0.5 * length * length * (length + arm) - length.powi(3) / 6.0) / bending + length / shear;
+    let slope = (length * (length + arm) - 0.5 * length * length) / bending;
+    let end = arm * rows / (3.0 * bending) + arm / rows / shear;
+    near(moves(&deck("two_brackets"), "mesh.203").0[2], sunk + (slope + end) * arm, 1e-3);
+}
+
 /// Two beams at a right angle, one an instance that is turned: bending of both and torsion of the first.
 #[test]
 fn instances_that_are_joined() {
