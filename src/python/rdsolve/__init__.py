@@ -101,7 +101,10 @@ class Results(Mapping):
             if not rows:
                 raise ValueError(f"{path} has no whole line yet: its run is still writing, or was ended")
             # Texts such as "NA" are names, and every number is read back to the last bit.
-            options = {"keep_default_na": False, "na_values": [""], "float_precision": "round_trip"}
+            options = {"keep_default_na": False, "na_values": [""]}
+            if [int(part) for part in pandas.__version__.split(".")[:2]] < [3, 1]:
+                # Later versions do so by default, and warn of the word.
+                options["float_precision"] = "round_trip"
             frame = pandas.read_csv(path, nrows=rows - 1, **options)
             known = _columns().get(path.name, {})
             columns = {name: known[name] for name in frame.columns if name in known}
