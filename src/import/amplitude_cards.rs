@@ -3,7 +3,7 @@
 use crate::file_content::AmplitudeCard;
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
-use std::f64::consts::TAU;
+use crate::time_formula::TimeFormula;
 
 /// Number of points of the curve of a formula.
 const POINTS: usize = 200;
@@ -34,7 +34,7 @@ pub fn amplitude(im: &mut Importer, block: &KeywordBlock) {
         return;
     };
     let all: Vec<f64> = rows.iter().flatten().copied().collect();
-    let mut card = AmplitudeCard { name, line, points: Vec::new(), sine: None, is_total, harmonic: None };
+    let mut card = AmplitudeCard { name, line, is_total, ..AmplitudeCard::default() };
     match &kind[..] {
         kind if "TABULAR".starts_with(kind) => {
             card.points = all.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
@@ -42,15 +42,9 @@ pub fn amplitude(im: &mut Importer, block: &KeywordBlock) {
         "EQUALLYSPACED" if interval > 0.0 => {
             card.points = (0..).zip(&all).map(|(k, value)| [f64::from(k) * interval, *value]).collect();
         }
-        "PERIODIC" => match periodic(&all) {
-            Some(sine) => card.sine = Some(sine),
-            None => {
-                return im.refuse(
-                    line,
-                    "of periodic amplitudes those with one term and without a constant part are translated",
-                );
-            }
-        },
+        "PERIODIC" => card.formula = TimeFormula::periodic(&all),
+        "DECAY" => card.formula = TimeFormula::decay(&all),
+        "MODULATED" => card.formula = TimeFormula::modulated(&all),
         "SMOOTHSTEP" => {
             card.points = smooth_steps(&all);
             im.change(line, "a smooth step is a table of points");
@@ -62,20 +56,16 @@ pub fn amplitude(im: &mut Importer, block: &KeywordBlock) {
         point[1] += scale;
     }
     let increase = card.points.windows(2).all(|pair| pair[0][0] < pair[1][0]);
-    if card.sine.is_none() && (card.points.is_empty() || !increase) {
+    if card.formula.is_none() && ["PERIODIC", "DECAY", "MODULATED"].contains(&&kind[..]) {
+        return im.refuse(line, &format!("DEFINITION={kind} has not the numbers of its formula"));
+    }
+    if card.formula.is_some() && [shift, delay, scale] != [0.0; 3] {
+        return im.refuse(line, "an amplitude by formula is not shifted: give its own start and constant");
+    }
+    if card.formula.is_none() && (card.points.is_empty() || !increase) {
         return im.refuse(line, "times of an amplitude must increase");
     }
     im.amplitudes.push(card);
-}
-
-/// One term: N, ω, t0, A0, then A1, B1.
-fn periodic(values: &[f64]) -> Option<[f64; 4]> {
-    let [count, omega, start, constant, a, b] = values[..] else { return None };
-    if count != 1.0 || constant != 0.0 || omega <= 0.0 {
-        return None;
-    }
-    // A cos + B sin is one sine with a phase.
-    Some([omega / TAU, a.atan2(b), a.hypot(b), start])
 }
 
 /// Steps of fifth degree between the points.

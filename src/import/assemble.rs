@@ -7,11 +7,11 @@ use crate::importer::Importer;
 use crate::tied_nodes::TiedNodes;
 use crate::timeline::Timeline;
 use crate::{
-    base_motion, bodies, contacts, distributing, equations, harmonics, joints, links, loads, material_cards, mesh_text,
-    model_changes, nodal_axes, output, parts, pretension, property_cards, single_loads, spread_loads, stage_text,
-    supports, surface_ties, temperatures, ties,
+    base_motion, bodies, contacts, distributing, equations, harmonics, joints, linear, links, loads, material_cards,
+    mesh_text, model_changes, nodal_axes, output, parts, pretension, property_cards, single_loads, spread_loads,
+    stage_text, supports, surface_ties, temperatures, ties,
 };
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap};
 
 /// The text of the deck and of the mesh.
 pub struct BuiltDeck {
@@ -29,6 +29,7 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
     loads::drop_those_of_modes(im);
     single_loads::join(im, &mesh);
     harmonics::prepare(im);
+    linear::end_loads_before_perturbations(im);
     material_cards::say_expansions(im);
     property_cards::refuse_turned_axes(im);
     let timeline = Timeline::new(im);
@@ -39,7 +40,7 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
         timeline,
         pieces: Vec::new(),
         piece_of: HashMap::new(),
-        groups: BTreeMap::new(),
+        groups: Default::default(),
         turned: HashMap::new(),
         body_of: HashMap::new(),
         rotating: BTreeSet::new(),

@@ -22,8 +22,8 @@ pub struct Build<'b, 'a, 't> {
     /// Beams and shells, and the index of that of each element.
     pub pieces: Vec<PartPiece>,
     pub piece_of: HashMap<usize, usize>,
-    /// Sets of nodes in the mesh, by their names in the deck.
-    pub groups: BTreeMap<String, Vec<u64>>,
+    /// Sets of nodes in the mesh.
+    pub groups: NodeGroups,
     /// The reference node of each rotation node of a body.
     pub turned: HashMap<u64, u64>,
     /// The name of the body of each node that is attached to one.
@@ -42,6 +42,28 @@ pub struct Build<'b, 'a, 't> {
     pub has_gravity: bool,
     /// Amplitudes in the deck by their content, and their names.
     pub amplitudes: (HashMap<String, String>, UniqueNames),
+}
+
+/// Sets of nodes.
+#[derive(Debug, Default)]
+pub struct NodeGroups {
+    /// The nodes by the name of the set in the deck.
+    pub by_name: BTreeMap<String, Vec<u64>>,
+    /// Names by the first node and the number of nodes.
+    names: HashMap<(Option<u64>, usize), BTreeSet<String>>,
+}
+
+impl NodeGroups {
+    fn add(&mut self, name: String, ids: Vec<u64>) {
+        self.names.entry((ids.first().copied(), ids.len())).or_default().insert(name.clone());
+        self.by_name.insert(name, ids);
+    }
+
+    /// The names of the sets that hold these nodes and no others.
+    fn alike(&self, ids: &[u64]) -> impl Iterator<Item = &String> {
+        let names = self.names.get(&(ids.first().copied(), ids.len())).into_iter().flatten();
+        names.filter(move |name| self.by_name[*name] == ids)
+    }
 }
 
 impl Build<'_, '_, '_> {
@@ -123,12 +145,11 @@ impl Build<'_, '_, '_> {
     /// The name in the deck of a set of nodes. A new set is added to the mesh.
     pub fn group(&mut self, name: &str, ids: Vec<u64>) -> String {
         let inner = name.rsplit_once('.').map_or(name, |(_, inner)| inner).to_lowercase();
-        let known = self.groups.iter().find(|(known, of)| **of == ids && known.to_lowercase().ends_with(&inner));
-        if let Some((known, _)) = known {
+        if let Some(known) = self.groups.alike(&ids).find(|known| known.to_lowercase().ends_with(&inner)) {
             return known.clone();
         }
         let name = self.deck.unique(name);
-        self.groups.insert(name.clone(), ids);
+        self.groups.add(name.clone(), ids);
         name
     }
 
@@ -156,7 +177,7 @@ impl Build<'_, '_, '_> {
         }
         for (name, ids) in sets.into_iter().filter(|(_, ids)| !ids.is_empty()) {
             let name = self.deck.unique(&name);
-            self.groups.insert(name, ids);
+            self.groups.add(name, ids);
         }
     }
 }

@@ -39,7 +39,7 @@ pub fn contacts(build: &mut Build) {
 fn say_thickness(build: &mut Build, card: &ContactCard, (touching, touched): (&[String], &[PartPiece])) {
     let is_explicit =
         |step: &StepCard| matches!(step.procedure, Some((StepProcedure::Dynamic { is_explicit: true, .. }, _)));
-    let of_set = |name: &String| build.groups.get(name).cloned().unwrap_or_default();
+    let of_set = |name: &String| build.groups.by_name.get(name).cloned().unwrap_or_default();
     let single = |name: &String| name.strip_prefix("mesh.")?.parse().ok();
     let nodes: BTreeSet<u64> = touching.iter().flat_map(|name| of_set(name).into_iter().chain(single(name))).collect();
     let acts = |piece: &&PartPiece| {

@@ -3,8 +3,8 @@
 use crate::contact_content::{ContactCards, ModelChange};
 use crate::scopes::NamedTarget;
 use crate::tied_nodes::NodalAxes;
+use crate::time_formula::TimeFormula;
 use base::math::Vec3;
-use std::f64::consts::TAU;
 
 /// Number of points of the curve of a formula.
 const POINTS: usize = 200;
@@ -39,6 +39,8 @@ pub struct MaterialCard {
 /// The materials of a file.
 #[derive(Debug, Default)]
 pub struct MaterialCards {
+    /// The temperature at the start, if there is one.
+    pub start_temperature: Option<f64>,
     /// The materials; the last one is still being read.
     pub list: Vec<MaterialCard>,
 }
@@ -332,10 +334,10 @@ pub struct AmplitudeCard {
     pub name: String,
     /// Its line.
     pub line: usize,
-    /// Times and values; with a sine only those of its line.
+    /// Times and values; none with a formula.
     pub points: Vec<[f64; 2]>,
-    /// A single sine from a time on: frequency, phase, scale, start. The deck has it as it is.
-    pub sine: Option<[f64; 4]>,
+    /// A formula instead of times and values.
+    pub formula: Option<TimeFormula>,
     /// True where times count from the start of the run.
     pub is_total: bool,
     /// The phase in degrees of a steady motion, which has no times.
@@ -345,8 +347,8 @@ pub struct AmplitudeCard {
 impl AmplitudeCard {
     /// The value at a time.
     pub fn at(&self, t: f64) -> f64 {
-        if let Some([frequency, phase, scale, start]) = self.sine {
-            return if t < start { 0.0 } else { scale * (TAU * frequency * (t - start) + phase).sin() };
+        if let Some(formula) = &self.formula {
+            return formula.at(t);
         }
         let after = self.points.partition_point(|point| point[0] <= t);
         match (after.checked_sub(1).map(|at| self.points[at]), self.points.get(after)) {
@@ -360,15 +362,13 @@ impl AmplitudeCard {
     pub fn seen_from(&self, now: f64) -> AmplitudeCard {
         let mut card = self.clone();
         card.points.iter_mut().for_each(|point| point[0] -= now);
-        if let Some([.., start]) = &mut card.sine {
-            *start -= now;
-        }
+        card.formula = self.formula.as_ref().map(|formula| formula.seen_from(now));
         card
     }
 
     /// The corners in time of a step of this length, from 0 to its end.
     pub fn corners(&self, duration: f64) -> Vec<f64> {
-        let mut times: Vec<f64> = match self.sine {
+        let mut times: Vec<f64> = match self.formula {
             Some(_) => (0..=POINTS).map(|k| duration * k as f64 / POINTS as f64).collect(),
             None => self.points.iter().map(|point| point[0]).filter(|t| *t > 0.0 && *t < duration).collect(),
         };
@@ -552,11 +552,14 @@ pub struct StepCard {
 }
 
 impl StepCard {
+    /// True for a step that advances time.
+    pub fn advances_time(&self) -> bool {
+        matches!(self.procedure, Some((StepProcedure::Static { .. } | StepProcedure::Dynamic { .. }, _)))
+    }
+
     /// True for a step that advances time at large displacements; later modes are about its final state.
     pub fn is_large(&self) -> bool {
-        let is_general =
-            matches!(self.procedure, Some((StepProcedure::Static { .. } | StepProcedure::Dynamic { .. }, _)));
-        self.is_nonlinear && is_general
+        self.is_nonlinear && self.advances_time()
     }
 
     /// True where something in it follows an amplitude.
@@ -586,6 +589,21 @@ pub struct BaseMotion {
     pub is_imaginary: bool,
 }
 
+/// A rigid motion of nodes at the start.
+#[derive(Debug, Clone)]
+pub struct RotatingNodes {
+    /// Its line.
+    pub line: usize,
+    /// The nodes.
+    pub nodes: NamedTarget,
+    /// The velocity of the point `about`.
+    pub velocity: Vec3,
+    /// The angular velocity.
+    pub spin: Vec3,
+    /// A point of the axis.
+    pub about: Vec3,
+}
+
 /// All steps of a file.
 #[derive(Debug, Default)]
 pub struct StepCards {
@@ -603,6 +621,8 @@ pub struct StepCards {
     pub requests: Requests,
     /// Velocities at the start: line, nodes, degree of freedom from 0 to 5, value.
     pub velocities: Vec<(usize, NamedTarget, usize, f64)>,
+    /// Rigid motions at the start.
+    pub rotations: Vec<RotatingNodes>,
 }
 
 impl StepCards {

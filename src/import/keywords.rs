@@ -163,6 +163,7 @@ pub const KEYWORDS: &[KeywordRow] = &[
         step_cards::dynamic,
         "a dynamic analysis",
     ),
+    read("FIXED MASS SCALING", "", step_cards::fixed_mass_scaling, "[integrator] mass_scaling_step"),
     read("MODAL DYNAMIC", "DIRECT SOLVER DELTMX", step_cards::modal_dynamic, "a dynamic analysis"),
     read(
         "FREQUENCY",
@@ -306,7 +307,6 @@ pub const KEYWORDS: &[KeywordRow] = &[
     refuse("INCLUDE", "this file could not be included"),
     refuse("IMPORT", "results of another run are not read"),
     refuse("INERTIA RELIEF", "free bodies are not balanced; hold the structure or compute its motion"),
-    refuse("FIXED MASS SCALING", "mass scaling is not translated; give `mass_scaling_step` of [integrator]"),
     refuse("VARIABLE MASS SCALING", "mass scaling is not translated; give `mass_scaling_step` of [integrator]"),
     refuse("EMBEDDED ELEMENT", "embedded elements are not translated"),
     refuse("FASTENER", "fasteners are not translated; use [[joints]] or [[links]]"),

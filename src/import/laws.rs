@@ -3,6 +3,7 @@
 use crate::build::Build;
 use crate::deck_text::{DeckTable, list, vector};
 use crate::file_content::{AmplitudeCard, StepCard, StepProcedure};
+use crate::time_formula::TimeFormula;
 use crate::timeline::{GivenValue, InStep, StageOfStep, TimeLaw};
 
 /// A value jumps within this part of a step.
@@ -99,7 +100,7 @@ impl Build<'_, '_, '_> {
                 // Values by the time of the run go on in later steps.
                 (_, Some((card, to, line))) => {
                     refused.extend(unsaid(card, stage).map(|why| (*line, why.to_owned())));
-                    drawn.extend(card.sine.map(|_| *line));
+                    drawn.extend(card.formula.as_ref().map(|_| *line));
                     let card = if card.is_total { card.seen_from(start) } else { card.clone() };
                     for t in card.corners(stage.duration) {
                         value = to * card.at(t);
@@ -123,7 +124,9 @@ impl Build<'_, '_, '_> {
         refused.dedup();
         refused.into_iter().for_each(|(line, why)| self.im.refuse(line, &why));
         drawn.dedup();
-        drawn.into_iter().for_each(|line| self.im.change(line, "a periodic amplitude is a table of 200 points a step"));
+        drawn
+            .into_iter()
+            .for_each(|line| self.im.change(line, "an amplitude by formula is a table of 200 points a step"));
         points
     }
 
@@ -154,7 +157,7 @@ impl Build<'_, '_, '_> {
     /// The largest value of a sine of the file, which is 1 in the deck; 1 for other amplitudes.
     pub fn over_sine(&self, name: &str) -> f64 {
         let card = self.im.amplitudes.iter().rfind(|card| card.name.to_lowercase() == name.to_lowercase());
-        card.and_then(|card| card.sine).map_or(1.0, |[_, _, scale, _]| scale)
+        card.and_then(|card| card.formula.as_ref()?.sine()).map_or(1.0, |[_, _, scale, _]| scale)
     }
 
     /// Adds an amplitude of the file to the deck and returns its name there; refuses one that does not exist.
@@ -170,8 +173,14 @@ impl Build<'_, '_, '_> {
             let table = if phase == 0.0 { table } else { table.number("phase_degrees", phase) };
             return Some(self.amplitude(card.name.trim_start_matches('*'), table));
         }
-        let table = match card.sine {
-            Some([frequency, phase, _, start]) => {
+        let end = self.timeline.end();
+        let table = match card.formula.as_ref().map(TimeFormula::sine) {
+            Some(None) => {
+                self.im.change(line, "an amplitude by formula is a table of 200 points");
+                let rows = card.corners(end).into_iter().map(|t| vector(&[t, card.at(t)]));
+                table.text("kind", "table").value("points", list(rows)).text("after", "hold")
+            }
+            Some(Some([frequency, phase, _, start])) => {
                 let table = table.text("kind", "sine").number("frequency", frequency).number("phase", phase);
                 if start == 0.0 { table } else { table.number("start", start) }
             }
@@ -207,9 +216,10 @@ impl Build<'_, '_, '_> {
 
 /// Why a table over all steps cannot hold an amplitude of one of them.
 fn unsaid(card: &AmplitudeCard, stage: &StageOfStep) -> Option<&'static str> {
-    let periods = card.sine.map_or(0.0, |[frequency, ..]| frequency * stage.duration);
-    (periods > MOST_PERIODS)
-        .then_some("a periodic amplitude has too many periods here for a table of points: give it a file of one step")
+    let periods = card.formula.as_ref().map_or(0.0, |formula| formula.frequency() * stage.duration);
+    (periods > MOST_PERIODS).then_some(
+        "an amplitude by formula has too many periods here for a table of points: give it a file of one step",
+    )
 }
 
 /// The line of the procedure of a step.

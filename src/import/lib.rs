@@ -62,6 +62,7 @@ mod temperatures;
 mod thin_sections;
 mod tied_nodes;
 mod ties;
+mod time_formula;
 mod timeline;
 mod units_hint;
 mod unread;
@@ -73,7 +74,7 @@ pub use urdf::import_robot;
 pub use verdicts::{KeywordVerdict, VerdictRow, Verdicts};
 
 use base::diagnostic::Diagnostic;
-use base::text_file::Text;
+use base::text_file::{Text, includes};
 use importer::Importer;
 use keyword_block::KeywordBlock;
 use keywords::Treatment;
@@ -116,6 +117,7 @@ pub fn import(text: &mut Text, options: &ImportOptions) -> Imported {
     let scopes = Scopes { outer_offset: count * step, step, largest, ..Scopes::default() };
     let dialect = options.dialect.or_else(|| Dialect::of(text, &blocks));
     let mut im = Importer::new(text, Verdicts::new(keywords), dialect, scopes);
+    im.materials.start_temperature = material_cards::start_temperature(&blocks);
     let rows: Vec<_> = blocks.iter().map(|block| keywords::row(&block.keyword.key())).collect();
     for (block, row) in blocks.iter().zip(&rows) {
         read(&mut im, block, *row);
@@ -158,6 +160,8 @@ fn read(im: &mut Importer, block: &KeywordBlock, row: Option<&'static keywords::
         Treatment::Refuse => im.refuse(line, row.about),
         Treatment::Read(read) => {
             block.keyword.forget_reads();
+            // The lines of that file are in the text already.
+            includes::included(&block.keyword);
             read(im, block);
             unread::judge(im, block, row);
         }

@@ -1,5 +1,6 @@
 //! Linear statics: which files are one linear analysis, and its time steps.
 
+use crate::dialect::Dialect;
 use crate::file_content::{PropertyOf, StepCard, StepProcedure, SupportLine};
 use crate::importer::Importer;
 use std::collections::BTreeSet;
@@ -35,6 +36,38 @@ pub fn time_step(im: &Importer) -> Option<f64> {
         })
     };
     (1..=PARTS).map(|parts| shortest / f64::from(parts)).find(|step| fits(*step))
+}
+
+/// Ends the loads of each step of Abaqus before a static perturbation, which has its own loads alone.
+pub fn end_loads_before_perturbations(im: &mut Importer) {
+    let is_abaqus = im.dialect == Some(Dialect::Abaqus);
+    for step in im.steps.list.iter_mut().filter(|step| is_abaqus && perturbs(step)) {
+        (step.new_forces, step.new_spread, step.new_temperatures) = (true, true, true);
+    }
+}
+
+/// Why the static perturbations of a file cannot be steps of the deck. One alone is a step like others.
+pub fn fault_of_perturbations(im: &Importer, is_linear: bool) -> Option<&'static str> {
+    let steps = &im.steps.list;
+    let timed = || steps.iter().filter(|step| step.advances_time());
+    let goes_back = timed().skip_while(|step| !perturbs(step)).any(|step| !perturbs(step));
+    let moves = timed().flat_map(|step| &step.supports).any(|support| support.value != 0.0);
+    match im.dialect {
+        _ if timed().count() < 2 || !timed().any(perturbs) => None,
+        Some(Dialect::Abaqus) if is_linear && !goes_back && !moves => None,
+        None => Some(
+            "a perturbation has its own loads alone in Abaqus, and is about the loaded state in CalculiX: say --from \
+             abaqus or --from calculix",
+        ),
+        Some(Dialect::Calculix) => Some("a perturbation is about the loaded state: give each step a file"),
+        Some(Dialect::Abaqus) => Some(
+            "perturbations follow linear static steps, without moved supports or modes beside them: give each step a file",
+        ),
+    }
+}
+
+fn perturbs(step: &StepCard) -> bool {
+    step.is_perturbation && matches!(step.procedure, Some((StepProcedure::Static { .. }, _)))
 }
 
 /// True where no force depends on the state.

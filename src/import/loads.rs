@@ -8,7 +8,7 @@ use crate::importer::Importer;
 use crate::pretension;
 use crate::scopes::NamedTarget;
 use crate::timeline::{GivenValue, InStep, TimeLaw, histories};
-use base::math::Mat3;
+use base::math::{Mat3, Vec3};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Node, degree of freedom, whether the force turns with the node, and whether it is an imaginary part.
@@ -190,8 +190,22 @@ pub fn in_time(table: DeckTable, law: Option<&TimeLaw>) -> DeckTable {
     table.in_stages(law.stages.as_deref())
 }
 
+/// Adds rigid motions at the start.
+fn rotations(build: &mut Build) {
+    for card in build.im.steps.rotations.clone() {
+        let nodes = build.nodes(&card.nodes).into_iter().filter(|node| build.mesh.used.contains(node)).collect();
+        let names = build.names(&nodes, std::slice::from_ref(&card.nodes), "moving");
+        let table = DeckTable::new("initial", 0).with_lines([card.line]).names("at", &names);
+        let table =
+            if card.velocity == Vec3::zeros() { table } else { table.numbers("velocity", card.velocity.as_slice()) };
+        let table = table.numbers("angular_velocity", card.spin.as_slice());
+        build.deck.add(table.numbers("about", card.about.as_slice()));
+    }
+}
+
 /// Adds velocities at the start.
 pub fn velocities(build: &mut Build) {
+    rotations(build);
     let mut of_node: BTreeMap<u64, ([f64; 6], BTreeSet<usize>)> = BTreeMap::new();
     let all = build.im.steps.velocities.clone();
     for (line, target, dof, value) in &all {

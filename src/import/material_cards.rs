@@ -20,10 +20,38 @@ fn at_hand<'m>(im: &'m mut Importer, line: usize) -> Option<&'m mut MaterialCard
     im.materials.list.last_mut()
 }
 
-/// True where only the first of several rows is taken.
-fn first_of_rows(im: &mut Importer, block: &KeywordBlock) {
-    if block.data.len() > 1 {
+/// The temperature at the start, if the file gives one to all.
+pub fn start_temperature(blocks: &[KeywordBlock]) -> Option<f64> {
+    let is_heat = |block: &&KeywordBlock| {
+        let kind = block.keyword.value("TYPE").unwrap_or_default();
+        block.keyword.key() == "INITIALCONDITIONS" && kind.eq_ignore_ascii_case("TEMPERATURE")
+    };
+    let lines = blocks.iter().filter(is_heat).flat_map(|block| &block.data);
+    let mut values = lines.filter_map(|data| data.words.get(1)?.fortran_number());
+    let first = values.next()?;
+    values.all(|value| value == first).then_some(first)
+}
+
+/// The values of a row, whose temperature stands behind so many of them: those at the start, linear between rows.
+fn row_at_start(im: &mut Importer, block: &KeywordBlock, count: usize) -> Vec<f64> {
+    let rows: Vec<Vec<f64>> = block.data.iter().map(|data| im.numbers(data)).collect();
+    let at = |row: &Vec<f64>| row.get(count).copied().unwrap_or(0.0);
+    if rows.len() < 2 {
+        return rows.into_iter().next().unwrap_or_default();
+    }
+    let Some(start) = im.materials.start_temperature else {
         im.change(block.keyword.line, "values that depend on temperature: those of the first row are taken");
+        return rows.into_iter().next().unwrap_or_default();
+    };
+    let how = format!("values that depend on temperature: those at {start} are taken, where all begins");
+    im.change(block.keyword.line, &how);
+    let after = rows.partition_point(|row| at(row) <= start);
+    match (after.checked_sub(1).map(|last| &rows[last]), rows.get(after)) {
+        (Some(a), Some(b)) => {
+            let share = (start - at(a)) / (at(b) - at(a));
+            a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect()
+        }
+        (a, b) => a.or(b).cloned().unwrap_or_default(),
     }
 }
 
@@ -35,8 +63,7 @@ pub fn elastic(im: &mut Importer, block: &KeywordBlock) {
     {
         return im.refuse(line, "rdsolve has isotropic elastic materials alone");
     }
-    first_of_rows(im, block);
-    let values = block.data.first().map(|data| im.numbers(data)).unwrap_or_default();
+    let values = row_at_start(im, block, 2);
     let [Some(&modulus), ratio] = [values.first(), values.get(1)] else {
         return im.refuse(line, "*ELASTIC needs Young's modulus");
     };
@@ -69,8 +96,7 @@ pub fn plastic(im: &mut Importer, block: &KeywordBlock) {
 
 /// `*DENSITY`.
 pub fn density(im: &mut Importer, block: &KeywordBlock) {
-    first_of_rows(im, block);
-    let density = block.data.first().and_then(|data| im.number_at(data, 0));
+    let density = row_at_start(im, block, 1).first().copied();
     if let Some(material) = at_hand(im, block.keyword.line) {
         material.density = density;
     }
@@ -127,8 +153,7 @@ pub fn rate_dependent(im: &mut Importer, block: &KeywordBlock) {
     if !"POWERLAW".starts_with(&kind) {
         return im.refuse(line, "of the laws of rate dependence rdsolve has POWER LAW, by rate and exponent");
     }
-    first_of_rows(im, block);
-    let values = block.data.first().map(|data| im.numbers(data)).unwrap_or_default();
+    let values = row_at_start(im, block, 2);
     let [rate, exponent] = [0, 1].map(|at| values.get(at).copied().unwrap_or(1.0));
     if let Some(material) = at_hand(im, line) {
         material.rate = Some([rate, exponent]);

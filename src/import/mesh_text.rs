@@ -23,7 +23,7 @@ pub fn mesh(build: &Build) -> String {
             let _ = writeln!(text, "{}", numbers.join(", "));
         }
     }
-    for (set, ids) in &build.groups {
+    for (set, ids) in &build.groups.by_name {
         let ids: Vec<u64> = ids.iter().copied().filter(|id| build.mesh.used.contains(id)).collect();
         if !ids.is_empty() {
             add_set(&mut text, "NSET", set, &ids);

@@ -105,6 +105,8 @@ fn read_beam(im: &mut Importer, block: &KeywordBlock, is_general: bool) {
         "HEX" if sizes.len() >= 2 => thin_sections::hexagon(sizes[0], sizes[1]),
         "ARBITRARY" => thin_sections::arbitrary(&rows),
         "TRAPEZOID" if sizes.len() >= 4 => thin_sections::trapezoid(sizes),
+        "CHANNEL" => thin_sections::channel(sizes),
+        "HAT" => thin_sections::hat(sizes),
         _ => shape(&word, sizes, im.dialect),
     };
     let (keys, centroid) = match found {
@@ -151,6 +153,8 @@ fn say_changes(im: &mut Importer, line: usize, word: &str, sizes: &[f64]) {
             "the shear centre of a box of unlike walls is its centroid"
         }
         ("ARBITRARY", _) => "the shear centre is the centroid",
+        ("CHANNEL", _) if sizes[2] == sizes[3] && sizes[4] == sizes[5] => return,
+        ("CHANNEL" | "HAT", _) => "walls count along their middle lines, and the shear centre is the centroid",
         ("TRAPEZOID", _) => "the torsion constant is A⁴/(40 I), with I about the centroid; the shear centre is there",
         _ => return,
     };

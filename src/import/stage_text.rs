@@ -4,6 +4,7 @@ use crate::build::Build;
 use crate::deck_text::{DeckTable, inline, number, quoted};
 use crate::file_content::{DampingOfModes, StepCard, StepProcedure};
 use crate::harmonics;
+use crate::linear;
 
 /// Why a file without steps is refused.
 const NO_STEPS: &str = "the file has no *STEP, and nothing tells what to compute";
@@ -14,11 +15,11 @@ pub fn stages(build: &mut Build) {
         if step.procedure.is_none() {
             build.im.refuse(step.line, "this step computes nothing that rdsolve has");
         }
-        let is_static = matches!(step.procedure, Some((StepProcedure::Static { .. }, _)));
-        if is_static && step.is_perturbation && build.im.steps.list.len() > 1 {
-            let why = "loads of a perturbation step act in it alone: give each step a file, or [[load_cases]]";
-            build.im.refuse(step.line, why);
-        }
+    }
+    if let Some(why) = linear::fault_of_perturbations(build.im, build.timeline.linear_step.is_some())
+        && let Some(step) = build.im.steps.list.iter().find(|step| step.is_perturbation)
+    {
+        build.im.refuse(step.line, why);
     }
     if build.im.steps.list.is_empty() {
         build.im.refuse(1, NO_STEPS);

@@ -1,9 +1,10 @@
 //! Steps: the procedure of each, and the supports and loads that begin in it.
 
-use crate::file_content::{ForceLine, SpreadLine, StepCard, StepProcedure, SupportLine};
+use crate::file_content::{ForceLine, RotatingNodes, SpreadLine, StepCard, StepProcedure, SupportLine};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::temperatures;
+use base::math::Vec3;
 use base::text_file::cards::{Data, Keyword, name_in};
 
 /// Why a line that acts in a step is refused outside of all steps.
@@ -100,6 +101,22 @@ pub fn dynamic(im: &mut Importer, block: &KeywordBlock) {
         im.change(line, "APPLICATION chooses further settings, which are not those of rdsolve");
     }
     set(im, line, StepProcedure::Dynamic { step, duration, alpha, is_explicit, mass_scaling: None });
+}
+
+/// `*FIXED MASS SCALING` of all elements up to a time step.
+pub fn fixed_mass_scaling(im: &mut Importer, block: &KeywordBlock) {
+    let (keyword, line) = (&block.keyword, block.keyword.line);
+    let kind = keyword.value("TYPE").unwrap_or("BELOW MIN").to_ascii_uppercase().replace(' ', "");
+    let step = keyword.value("DT").and_then(|text| text.parse::<f64>().ok()).filter(|step| *step > 0.0);
+    let Some(step) = step.filter(|_| kind == "BELOWMIN" && !keyword.has("ELSET") && !keyword.has("FACTOR")) else {
+        let why = "mass scaling is translated of all elements, with DT and TYPE=BELOW MIN; give `mass_scaling_step` of [integrator]";
+        return im.refuse(line, why);
+    };
+    match &mut im.steps.at_hand().procedure {
+        Some((StepProcedure::Dynamic { is_explicit: true, mass_scaling, .. }, _)) => *mass_scaling = Some(step),
+        _ => return im.refuse(line, "mass scaling belongs to a step of *DYNAMIC, EXPLICIT"),
+    }
+    im.change(line, "elements get rotary inertia first, and mass where that is not enough");
 }
 
 /// `*MODAL DYNAMIC`.
@@ -285,7 +302,8 @@ fn spread(im: &mut Importer, block: &KeywordBlock, is_surface: bool) {
 /// `*INITIAL CONDITIONS`.
 pub fn initial_conditions(im: &mut Importer, block: &KeywordBlock) {
     let line = block.keyword.line;
-    match block.keyword.value("TYPE").unwrap_or_default().to_ascii_uppercase().as_str() {
+    match block.keyword.value("TYPE").unwrap_or_default().to_ascii_uppercase().replace(' ', "").as_str() {
+        "ROTATINGVELOCITY" => rotations(im, block),
         "VELOCITY" => {
             for data in block.data.iter().filter(|data| data.filled() > 0) {
                 let Some(degree) = im.id(data, 1).filter(|degree| (1..=6).contains(degree)) else { continue };
@@ -302,6 +320,27 @@ pub fn initial_conditions(im: &mut Importer, block: &KeywordBlock) {
             }
         }
         kind => im.refuse(line, &format!("initial conditions of TYPE={kind} are not translated")),
+    }
+}
+
+/// Rigid motions at the start, on two lines each: nodes, angular velocity and velocity; two points of the axis.
+fn rotations(im: &mut Importer, block: &KeywordBlock) {
+    let lines: Vec<&Data> = block.data.iter().filter(|data| data.filled() > 0).collect();
+    for pair in lines.chunks(2) {
+        let [first, second] = pair else {
+            return im.refuse(pair[0].line, "a rotating velocity needs two points of its axis on the next line");
+        };
+        let mut vector = |data: &Data, at: usize| -> Vec3 {
+            Vec3::from_fn(|i, _| if at + i < data.filled() { im.number_at(data, at + i).unwrap_or(0.0) } else { 0.0 })
+        };
+        let (velocity, about, end) = (vector(first, 2), vector(second, 0), vector(second, 3));
+        let rate = im.number_at(first, 1).unwrap_or(0.0);
+        let Some(axis) = (end - about).try_normalize(0.0) else {
+            im.refuse(second.line, "the two points of this axis are one");
+            continue;
+        };
+        let nodes = im.target(&first.words[0]);
+        im.steps.rotations.push(RotatingNodes { line: first.line, nodes, velocity, spin: rate * axis, about });
     }
 }
 

@@ -1,4 +1,4 @@
-//! Sections by their integrals: SECTION=HEX, SECTION=ARBITRARY and SECTION=TRAPEZOID.
+//! Sections by their walls or integrals: SECTION=HEX, ARBITRARY, TRAPEZOID, CHANNEL and HAT, and boxes of unlike walls.
 
 use crate::file_content::SectionValue;
 
@@ -102,6 +102,51 @@ pub fn box_of_unlike_walls(sizes: &[f64]) -> Result<KeysAndCentroid, String> {
         keys.push(("product_moment", Number(product)));
     }
     Ok((keys, center))
+}
+
+/// A channel by the height of the node over its lower side, its height, the widths and then the thicknesses of the lower and the upper flange,
+/// the thickness of its web, and the place of the node from the back of the web. Flanges point along +1.
+pub fn channel(sizes: &[f64]) -> Result<KeysAndCentroid, String> {
+    use SectionValue::{Number, Word};
+    let [l, height, lower, upper, below, above, web, o, ..] = *sizes else { return Err(needs_eight("CHANNEL")) };
+    if [height, lower, upper, below, above, web].iter().any(|size| *size <= 0.0)
+        || web >= lower.min(upper)
+        || below + above >= height
+    {
+        return Err("a channel has a web that leaves flanges, and flanges that leave a web".to_owned());
+    }
+    let (back, top) = (0.5 * web, height - 0.5 * above);
+    let points = [[upper, top], [back, top], [back, 0.5 * below], [lower, 0.5 * below]];
+    let (mut keys, [y, z]) = walls(&points, &[above, web, below], false);
+    if lower == upper && below == above {
+        keys = vec![
+            ("shape", Word("c")),
+            ("height", Number(height)),
+            ("width", Number(lower)),
+            ("web_thickness", Number(web)),
+            ("flange_thickness", Number(below)),
+        ];
+    }
+    Ok((keys, [y - o, z - l]))
+}
+
+/// A hat by the height of the node over its lower side, its height, its width below, the widths of its top and of each rim, then the thicknesses
+/// of top, rims and webs. The webs join the ends of top and rims.
+pub fn hat(sizes: &[f64]) -> Result<KeysAndCentroid, String> {
+    let [l, height, width, top, rim, above, below, web, ..] = *sizes else { return Err(needs_eight("HAT")) };
+    let is_thin = 0.5 * (above + below) < height && 2.0 * rim < width;
+    if !is_thin || [top, rim, above, below, web].iter().any(|size| *size <= 0.0) {
+        return Err("a hat has walls, a height above their thickness, and rims below its width".to_owned());
+    }
+    let right = [[0.5 * top, height - 0.5 * above], [0.5 * width - rim, 0.5 * below], [0.5 * width, 0.5 * below]];
+    let left = right.iter().rev().map(|[y, z]| [-y, *z]);
+    let points: Vec<[f64; 2]> = left.chain(right).collect();
+    let (keys, [y, z]) = walls(&points, &[below, web, above, web, below], false);
+    Ok((keys, [y, z - l]))
+}
+
+fn needs_eight(word: &str) -> String {
+    format!("SECTION={word} needs 8 numbers on the line below")
 }
 
 /// A line of walls through points; `rows`: the number of walls, the first two points and a thickness, then a point and a thickness each.

@@ -39,12 +39,10 @@ const fn refuses(
 
 const BEAMS: &[&str] = &["BEAMSECTION", "BEAMGENERALSECTION"];
 const SHELLS: &[&str] = &["SHELLSECTION", "SHELLGENERALSECTION"];
-const MESH: &[&str] = &["NODE", "ELEMENT", "NSET", "ELSET"];
 const LOADS: &[&str] = &["DLOAD", "DSLOAD"];
 
 /// Parameters that act on the motion.
 const UNREAD: &[UnreadParameter] = &[
-    refuses(MESH, "INPUT", &[], "lines of another file are not read: give *INCLUDE"),
     refuses(
         BEAMS,
         "TEMPERATURE",

@@ -1,6 +1,7 @@
 //! One file in many dresses: the same deck and the same mesh.
 
 use super::{deck, decks, imported, refusals, tables};
+use assert_cmd::Command;
 
 /// Case in keywords, blanks, tabs, ends of lines, comments, the order of blocks: the same tables and the same mesh.
 #[test]
@@ -29,6 +30,66 @@ fn lines_in_every_dress() {
             assert_eq!(made.mesh, wanted.mesh, "{name}: {what}");
         }
     }
+}
+
+/// A keyword line, and data of more than four numbers, may go on after a comma; names count in any case, and exponents may be D.
+#[test]
+fn broken_lines_and_other_names() {
+    for name in ["plate_s4", "rigid_edge"] {
+        let plain = deck(name);
+        let wanted = imported(&plain);
+        let broken = |line: &str| match line {
+            _ if line.starts_with("*Shell") || line.starts_with("*SHELL") => line.replace(", ", ",\n  "),
+            _ if line.split(", ").count() == 5 => line.replacen(", ", ",\n", 3).replacen(",\n", ", ", 2),
+            _ => line.to_owned(),
+        };
+        let exponents = plain.replace("2.1E+11", "2.1D+11").replace("210000,", "2.1D5,");
+        let dresses = [
+            ("broken lines", plain.lines().map(broken).collect::<Vec<_>>().join("\n")),
+            ("exponents of Fortran", exponents),
+            ("nodes and elements given twice", twice(&plain)),
+        ];
+        for (what, text) in dresses {
+            assert_ne!(text, plain, "{name}: {what}");
+            let made = imported(&text);
+            assert_eq!(refusals(&made), [""; 0], "{name}: {what}");
+            assert_eq!(made.mesh, wanted.mesh, "{name}: {what}");
+            assert_eq!(tables(&made.deck), tables(&wanted.deck), "{name}: {what}");
+        }
+    }
+}
+
+/// The file with its first block of nodes once more.
+fn twice(text: &str) -> String {
+    let (begin, end) = (text.find("*Node").unwrap(), text.find("*E").unwrap());
+    format!("{}{}", &text[..end], &text[begin..])
+}
+
+/// A file that includes its nodes and its step, the second one from a folder, or reads the nodes by INPUT: the same deck and mesh.
+#[test]
+fn includes() {
+    let plain = deck("rigid_edge");
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir_all(folder.path().join("parts")).unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    let (before, rest) = plain.split_once("*Node\n").unwrap();
+    let (nodes, rest) = rest.split_once("*Element").unwrap();
+    let (middle, step) = rest.split_once("*Step").unwrap();
+    write("whole.inp", &plain);
+    write("nodes.inp", &format!("*Node\n{nodes}"));
+    write("parts/step.inp", &format!("*Step{step}"));
+    write("split.inp", &format!("{before}*Include, Input=nodes.inp\n*Element{middle}*INCLUDE, INPUT=parts/step.inp\n"));
+    write("numbers.txt", nodes);
+    write("input.inp", &format!("{before}*Node, Input=numbers.txt\n*Element{rest}"));
+    let made = ["whole", "split", "input"].map(|name| {
+        let mut program = Command::cargo_bin("rdsolve").unwrap();
+        let done = program.current_dir(folder.path()).args(["import", &format!("{name}.inp")]).output().unwrap();
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        let text = |end: &str| std::fs::read_to_string(folder.path().join(format!("{name}.{end}"))).unwrap();
+        (tables(&text("toml")).replace(&format!("{name}.mesh"), "whole.mesh"), text("mesh.inp"))
+    });
+    assert_eq!(made[0], made[1]);
+    assert_eq!(made[0], made[2]);
 }
 
 /// Blocks may stand in another order: sections before materials, supports before elements.

@@ -49,7 +49,6 @@ fn parameters_that_nothing_reads() {
         (("SECTION=RECT", "SECTION=RECT, TEMPERATURE=VALUES"), KeywordVerdict::Refused, "TEMPERATURE: temp"),
         (("SECTION=RECT", "SECTION=RECT, TEMPERATURE=GRADIENT"), KeywordVerdict::Ignored, "TEMPERATURE is not"),
         (("*NSET,", "*NSET, UNSORTED,"), KeywordVerdict::Ignored, "UNSORTED is not read"),
-        (("*NODE", "*NODE, INPUT=a.txt"), KeywordVerdict::Refused, "INPUT: lines of another file"),
     ] {
         let made = imported(&edited(BEAM, &[edits]));
         assert!(reasons(&made, verdict).iter().any(|said| said.contains(wanted)), "{wanted}");

@@ -205,6 +205,7 @@ fn rows() -> Vec<(&'static str, String)> {
             model("*INITIAL CONDITIONS, TYPE=VELOCITY\ntip, 3, -2.\n").replace("*STATIC", "*DYNAMIC"),
         ),
         ("DYNAMIC", procedure("*DYNAMIC, DIRECT\n0.01, 0.1\n")),
+        ("FIXED MASS SCALING", procedure("*DYNAMIC, EXPLICIT\n, 0.1\n*FIXED MASS SCALING, TYPE=BELOW MIN, DT=2e-6\n")),
         ("FREQUENCY", procedure("*FREQUENCY\n4\n")),
         ("COMPLEX FREQUENCY", procedure("*COMPLEX FREQUENCY\n4\n")),
         ("BUCKLE", procedure("*BUCKLE\n2\n*CLOAD\n2, 1, -5.\n")),

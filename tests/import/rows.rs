@@ -67,7 +67,9 @@ fn sections_of_beams() {
         "shape = \"l\"\nwidth = 0.1\nheight = 0.2\nthickness = [0.02, 0.01]\n",
     );
     refuses(BEAM, &with("SECTION=CIRC", "0.1"), "--from abaqus or --from calculix");
-    refuses(BEAM, &with("SECTION=CHANNEL", "0.1, 0.1, 0.2, 0."), "SECTION=CHANNEL is not translated");
+    refuses(BEAM, &with("SECTION=CHANNEL", "0.1, 0.1, 0.2, 0."), "SECTION=CHANNEL needs 8 numbers");
+    refuses(BEAM, &with("SECTION=HAT", "0.1, 0.1, 0.2, 0."), "SECTION=HAT needs 8 numbers");
+    refuses(BEAM, &with("SECTION=MESHED", "0.1"), "SECTION=MESHED is not translated");
     refuses(BEAM, &with("SECTION=TRAPEZOID", "0., 0.1, 0., 0."), "must be above zero");
     // Equal widths are a rectangle of 0.1 by 0.2, whose node lies at the base.
     let made = imported(&edited(BEAM, &with("SECTION=TRAPEZOID", "0.1, 0.2, 0.1, 0.")));
@@ -115,6 +117,56 @@ fn sections_of_beams() {
         "{}",
         made.deck
     );
+}
+
+/// A channel and a hat by sums over plates that do not overlap. Middle lines err at each corner by the square of thickness over size.
+#[test]
+fn channels_and_hats() {
+    let with = |section: &'static str, sizes: &'static str| [("SECTION=RECT", section), ("0.1, 0.2", sizes)];
+    let of_plates = |plates: &[[f64; 4]]| {
+        let area: f64 = plates.iter().map(|[a, b, ..]| a * b).sum();
+        let [y, z] = [2, 3].map(|i| plates.iter().map(|plate| plate[0] * plate[1] * plate[i]).sum::<f64>() / area);
+        let about = |i: usize, center: f64| -> f64 {
+            let own = |plate: &[f64; 4]| plate[i].powi(2) / 12.0 + (plate[2 + i] - center).powi(2);
+            plates.iter().map(|plate| plate[0] * plate[1] * own(plate)).sum()
+        };
+        (area, [about(1, z), about(0, y)], [y, z])
+    };
+    let near = |deck: &str, key: &str, wanted: &[f64], tolerance: f64| {
+        for (found, wanted) in row_of(deck, key).iter().zip(wanted) {
+            assert!((found / wanted - 1.0).abs() < tolerance, "{key}: {found} for {wanted}");
+        }
+    };
+    // Like flanges: the node lies 0.01 from the back of the web and 0.04 over the lower side. Axis 1 is global y.
+    let channel = edited(BEAM, &with("SECTION=CHANNEL", "0.04, 0.2, 0.08, 0.08, 0.01, 0.01, 0.006, 0.01"));
+    let keys = "shape = \"c\"\nheight = 0.2\nwidth = 0.08\nweb_thickness = 0.006\nflange_thickness = 0.01\n";
+    has(&channel, &[], None, keys);
+    let (_, _, [y, z]) =
+        of_plates(&[[0.006, 0.2, 0.003, 0.1], [0.074, 0.01, 0.043, 0.005], [0.074, 0.01, 0.043, 0.195]]);
+    let offset = row_of(&imported(&channel).deck, "offset_start");
+    // (t/b)², of the distance of the centroid from the web.
+    assert!((offset[1] / (y - 0.01) - 1.0).abs() < 0.015 && (offset[2] / (z - 0.04) - 1.0).abs() < 1e-12, "{offset:?}");
+    // Unlike flanges. (t/b)² is 0.02, and corners are a part of the area.
+    let made = imported(&edited(BEAM, &with("SECTION=CHANNEL", "0., 0.2, 0.08, 0.06, 0.012, 0.008, 0.006, 0.")));
+    let (area, moments, center) =
+        of_plates(&[[0.006, 0.2, 0.003, 0.1], [0.074, 0.012, 0.043, 0.006], [0.054, 0.008, 0.033, 0.196]]);
+    near(&made.deck, "area", &[area], 1e-12);
+    near(&made.deck, "moments", &moments, 0.01);
+    let offset = row_of(&made.deck, "offset_start");
+    assert!((0..2).all(|i| (offset[1 + i] / center[i] - 1.0).abs() < 0.02), "{offset:?} for {center:?}");
+    // A hat with upright webs.
+    let made = imported(&edited(BEAM, &with("SECTION=HAT", "0.03, 0.1, 0.2, 0.1, 0.05, 0.004, 0.004, 0.004")));
+    let (area, moments, [_, z]) = of_plates(&[
+        [0.104, 0.004, 0.0, 0.098],
+        [0.004, 0.092, 0.05, 0.05],
+        [0.004, 0.092, -0.05, 0.05],
+        [0.052, 0.004, 0.074, 0.002],
+        [0.052, 0.004, -0.074, 0.002],
+    ]);
+    near(&made.deck, "area", &[area], 1e-12);
+    near(&made.deck, "moments", &moments, 0.01);
+    let offset = row_of(&made.deck, "offset_start");
+    assert!(offset[1].abs() < 1e-15 && (offset[2] / (z - 0.03) - 1.0).abs() < 0.01, "{offset:?}");
 }
 
 #[test]
@@ -370,6 +422,86 @@ fn linear_steps() {
 }
 
 const SECOND: &str = "*END STEP\n*STEP, NLGEOM\n*STATIC\n1., 2.\n*CLOAD\n2, 3, 10.\n*END STEP\n";
+
+/// Amplitudes by formula are tables of its values, in one step and in several; a single sine stays one.
+#[test]
+fn amplitudes_by_formula() {
+    type Formula = (&'static str, fn(f64) -> f64);
+    let formulas: [Formula; 3] = [
+        ("PERIODIC\n2, 6., 0.1, 0.5\n1., 2., 3., 4.\n", |t| match 6.0 * (t - 0.1) {
+            w if w < 0.0 => 0.5,
+            w => 0.5 + w.cos() + 2.0 * w.sin() + 3.0 * (2.0 * w).cos() + 4.0 * (2.0 * w).sin(),
+        }),
+        ("DECAY\n0.5, 2., 0.1, 0.2\n", |t| if t < 0.1 { 0.5 } else { 0.5 + 2.0 * (-(t - 0.1) / 0.2).exp() }),
+        ("MODULATED\n0.5, 2., 0.1, 3., 20.\n", |t| match t - 0.1 {
+            s if s < 0.0 => 0.5,
+            s => 0.5 + 2.0 * (3.0 * s).sin() * (20.0 * s).sin(),
+        }),
+    ];
+    let second = "*END STEP\n*STEP, NLGEOM\n*STATIC\n1., 1.\n*CLOAD\n2, 2, 1.\n*END STEP\n";
+    for (lines, wanted) in formulas {
+        let with = format!("*AMPLITUDE, NAME=A, DEFINITION={lines}*BOUNDARY");
+        let text = edited(BEAM, &[("*BOUNDARY", with.as_str()), ("*CLOAD", "*CLOAD, AMPLITUDE=A")]);
+        for text in [text.clone(), edited(&text, &[("*END STEP\n", second)])] {
+            let made = imported(&text);
+            assert_eq!(refusals(&made), [""; 0]);
+            model_of(&made);
+            let forces = made.deck.lines().filter(|line| line.starts_with("force"));
+            let force: f64 = forces.map(|line| row_of(line, "force")[2]).sum();
+            let points = row_of(&made.deck, "points");
+            assert!(points.len() > 400, "{lines}");
+            for point in points.chunks(2).filter(|point| point[0] > 0.0 && point[0] < 1.0) {
+                // The amplitude acts on 5, and numbers of the deck have all digits.
+                let value = 5.0 * wanted(point[0]);
+                assert!((force * point[1] - value).abs() < 1e-12, "{lines}: {point:?} for {value}");
+            }
+        }
+    }
+    let with = |lines: &'static str| [("*BOUNDARY", lines), ("*CLOAD", "*CLOAD, AMPLITUDE=A")];
+    refuses(BEAM, &with("*AMPLITUDE, NAME=A, DEFINITION=DECAY\n0., 1., 0.\n*BOUNDARY"), "the numbers of its formula");
+    let shifted = "*AMPLITUDE, NAME=A, DEFINITION=DECAY, SHIFTX=1.\n0., 1., 0., 1.\n*BOUNDARY";
+    refuses(BEAM, &with(shifted), "an amplitude by formula is not shifted");
+}
+
+/// Values at the temperature of the start: between rows, beyond the last one, and of the first one where the file gives no temperature.
+#[test]
+fn materials_at_the_first_temperature() {
+    let rows = ("1e9, 0.3", "1e9, 0.3, 20.\n5e8, 0.2, 120.");
+    let of = |start: &str, modulus: &str| {
+        let heat = format!("*INITIAL CONDITIONS, TYPE=TEMPERATURE\ntip, {start}\n*BOUNDARY");
+        has(BEAM, &[rows, ("*BOUNDARY", &heat)], None, &format!("youngs_modulus = {modulus}\npoisson_ratio = "));
+    };
+    of("45.", "8.75e8");
+    of("20.", "1e9");
+    of("300.", "5e8");
+    has(BEAM, &[rows], None, "youngs_modulus = 1e9\npoisson_ratio = 0.3\n");
+}
+
+/// A rigid motion at the start is one table with its axis, and mass scaling of all elements a key of the scheme.
+#[test]
+fn starts_and_scaled_masses() {
+    let spun = |lines: &'static str| [("*BOUNDARY", lines), ("*STATIC", "*DYNAMIC")];
+    let of = "*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\ntip, 3., 1.\n1., 0., 0., 1., 0., 2.\n*BOUNDARY";
+    let wanted =
+        "at = \"tip\"\nvelocity = [1.0, 0.0, 0.0]\nangular_velocity = [0.0, 0.0, 3.0]\nabout = [1.0, 0.0, 0.0]\n";
+    has(BEAM, &spun(of), None, wanted);
+    refuses(BEAM, &spun("*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\ntip, 3.\n*BOUNDARY"), "two points of its axis");
+    refuses(
+        BEAM,
+        &spun("*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\ntip, 3.\n1., 0., 0., 1.\n*BOUNDARY"),
+        "the two points of this axis are one",
+    );
+    let scaled = |line: &'static str| [("*STATIC\n0.5, 1.\n", line)];
+    let explicit = "*DYNAMIC, EXPLICIT\n, 1.\n*FIXED MASS SCALING, TYPE=BELOW MIN, DT=2e-6\n";
+    has(BEAM, &scaled(explicit), None, "scheme = \"central-difference\"\nmass_scaling_step = 2e-6\n");
+    for (line, why) in [
+        ("*DYNAMIC, EXPLICIT\n, 1.\n*FIXED MASS SCALING, FACTOR=4.\n", "with DT and TYPE=BELOW MIN"),
+        ("*DYNAMIC, EXPLICIT\n, 1.\n*FIXED MASS SCALING, DT=1e-6, ELSET=rod\n", "of all elements"),
+        ("*DYNAMIC\n0.1, 1.\n*FIXED MASS SCALING, DT=1e-6\n", "belongs to a step of *DYNAMIC, EXPLICIT"),
+    ] {
+        refuses(BEAM, &scaled(line), why);
+    }
+}
 
 /// Loads go on from step to step, and run from value to value over a step.
 #[test]

@@ -87,8 +87,8 @@ impl Included {
 }
 
 /// The name of the file that a keyword includes.
-fn included<'k>(keyword: &'k Keyword) -> Option<&'k str> {
-    let reads = ["INCLUDE", "NODE", "ELEMENT", "NSET", "ELSET"].contains(&keyword.key().as_str());
+pub fn included<'k>(keyword: &'k Keyword) -> Option<&'k str> {
+    let reads = ["INCLUDE", "NODE", "ELEMENT", "NSET", "ELSET", "AMPLITUDE"].contains(&keyword.key().as_str());
     keyword.value("INPUT").filter(|_| reads)
 }
 

@@ -1,0 +1,90 @@
+//! Functions of time by formula: DEFINITION=PERIODIC, DECAY and MODULATED of `*AMPLITUDE`.
+
+use std::f64::consts::TAU;
+
+/// A formula that begins at a time; before it only its constant part holds.
+#[derive(Debug, Clone)]
+pub struct TimeFormula {
+    /// The constant part.
+    constant: f64,
+    /// The time when the rest begins.
+    start: f64,
+    rest: VaryingPart,
+}
+
+#[derive(Debug, Clone)]
+enum VaryingPart {
+    /// Angular frequency of the first term, and factors of the cosine and sine of each.
+    Fourier(f64, Vec<[f64; 2]>),
+    /// Value at the start, and the time in which it falls to its part 1/e.
+    Decay(f64, f64),
+    /// The product of two sines: factor, and both angular frequencies.
+    Modulated(f64, [f64; 2]),
+}
+
+impl TimeFormula {
+    /// N, ω, t₀, A₀, then A and B of N terms.
+    pub fn periodic(values: &[f64]) -> Option<TimeFormula> {
+        let [count, omega, start, constant, terms @ ..] = values else { return None };
+        let is_whole = *omega > 0.0 && terms.len() as f64 == 2.0 * count && !terms.is_empty();
+        let terms = terms.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
+        is_whole.then(|| TimeFormula { constant: *constant, start: *start, rest: VaryingPart::Fourier(*omega, terms) })
+    }
+
+    /// A₀, A, t₀ and the time of decay.
+    pub fn decay(values: &[f64]) -> Option<TimeFormula> {
+        let &[constant, factor, start, time] = values else { return None };
+        (time > 0.0).then_some(TimeFormula { constant, start, rest: VaryingPart::Decay(factor, time) })
+    }
+
+    /// A₀, A, t₀, ω₁ and ω₂.
+    pub fn modulated(values: &[f64]) -> Option<TimeFormula> {
+        let &[constant, factor, start, a, b] = values else { return None };
+        Some(TimeFormula { constant, start, rest: VaryingPart::Modulated(factor, [a, b]) })
+    }
+
+    /// The value at a time.
+    pub fn at(&self, t: f64) -> f64 {
+        let t = t - self.start;
+        if t < 0.0 {
+            return self.constant;
+        }
+        let of_term = |(n, [a, b]): (usize, &[f64; 2]), omega: f64| {
+            let (sin, cos) = ((n + 1) as f64 * omega * t).sin_cos();
+            a * cos + b * sin
+        };
+        self.constant
+            + match &self.rest {
+                VaryingPart::Fourier(omega, terms) => {
+                    terms.iter().enumerate().map(|term| of_term(term, *omega)).sum::<f64>()
+                }
+                VaryingPart::Decay(factor, time) => factor * (-t / time).exp(),
+                VaryingPart::Modulated(factor, [a, b]) => factor * (a * t).sin() * (b * t).sin(),
+            }
+    }
+
+    /// The same with times from here on.
+    pub fn seen_from(&self, now: f64) -> TimeFormula {
+        TimeFormula { start: self.start - now, ..self.clone() }
+    }
+
+    /// The highest frequency in it.
+    pub fn frequency(&self) -> f64 {
+        match &self.rest {
+            VaryingPart::Fourier(omega, terms) => terms.len() as f64 * omega / TAU,
+            VaryingPart::Decay(..) => 0.0,
+            VaryingPart::Modulated(_, [a, b]) => (a.abs() + b.abs()) / TAU,
+        }
+    }
+
+    /// Frequency, phase, scale and start of a single sine, which the deck has as it is: A cos + B sin with a phase.
+    pub fn sine(&self) -> Option<[f64; 4]> {
+        match &self.rest {
+            VaryingPart::Fourier(omega, terms) if self.constant == 0.0 && terms.len() == 1 => {
+                let [a, b] = terms[0];
+                Some([omega / TAU, a.atan2(b), a.hypot(b), self.start])
+            }
+            _ => None,
+        }
+    }
+}
