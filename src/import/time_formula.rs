@@ -28,7 +28,8 @@ impl TimeFormula {
         let [count, omega, start, constant, terms @ ..] = values else { return None };
         let is_whole = *omega > 0.0 && terms.len() as f64 == 2.0 * count && !terms.is_empty();
         let terms = terms.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
-        is_whole.then(|| TimeFormula { constant: *constant, start: *start, rest: VaryingPart::Fourier(*omega, terms) })
+        let rest = VaryingPart::Fourier(*omega, terms);
+        is_whole.then_some(TimeFormula { constant: *constant, start: *start, rest })
     }
 
     /// A₀, A, t₀ and the time of decay.
