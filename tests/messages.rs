@@ -716,6 +716,37 @@ fn matrices_of_sections() {
     assert_snapshot!("section_matrix_short", section("stiffness = [[1e6, 0.0], [0.0, 1e6]]"));
 }
 
+/// Sections of polygons.
+#[test]
+fn polygons_of_sections() {
+    let square = "[[0.0, 0.0], [0.1, 0.0], [0.1, 0.1], [0.0, 0.1]]";
+    let inner = "[[0.02, 0.02], [0.08, 0.02], [0.08, 0.08], [0.02, 0.08]]";
+    let section = |keys: &str| {
+        let shape = "shape = \"rectangle\"\nwidth = 0.05\nheight = 0.05\n";
+        portal(&[(shape, &format!("shape = \"polygons\"\n{keys}\n"))])
+    };
+    let of = |points: &str| format!("polygons = [{{ points = {points} }}]");
+    let faults = [
+        of("[[0.0, 0.0], [0.1, 0.1], [0.1, 0.0], [0.0, 0.2]]"),
+        of("[[0.0, 0.0], [0.1, 0.0]]"),
+        of("[[0.0, 0.0], [0.1, 0.0], [0.2, 0.0]]"),
+        of("[[0.0, 0.0], [0.1, 0.0], [0.1, 0.1], [0.05, 0.05], [0.0, 0.1], [0.05, 0.05]]"),
+        format!("polygons = [{{ points = {square}, holes = [[[0.2, 0.0], [0.3, 0.0], [0.3, 0.1]]] }}]"),
+        format!("polygons = [{{ points = {square}, holes = [{square}] }}]"),
+        format!("polygons = [{{ points = {square} }}, {{ points = {inner} }}]"),
+        format!("polygons = [{{ points = {square} }}, {{ points = {square} }}]"),
+        format!(
+            "polygons = [{{ points = {square} }}, {{ points = [[0.05, 0.05], [0.2, 0.05], [0.2, 0.2], [0.05, 0.2]] }}]"
+        ),
+        format!("polygons = [{{ points = {square} }}, {{ points = [[0.2, 0.0], [0.3, 0.0], [0.3, 0.1]] }}]"),
+        format!("polygons = [{{ points = {square}, material = \"steal\" }}]"),
+        format!("mesh_size = 1e-5\npolygons = [{{ points = {square} }}]"),
+        String::new(),
+    ];
+    let said: Vec<String> = faults.iter().map(|keys| section(keys)).collect();
+    assert_snapshot!("polygons_of_sections", said.join("\n"));
+}
+
 /// Links by full matrices.
 #[test]
 fn matrices_of_links() {

@@ -24,6 +24,46 @@ pub struct Section {
     pub core: Maybe<String>,
     /// Bars of steel along the beam, in concrete of shape "rectangle", "circle" or "tube". They replace the concrete that they displace.
     pub bars: Maybe<Vec<At<Table<SectionBars>>>>,
+    /// Areas of the section, of one elastic material each, of shape "polygons". They may touch along edges and must not overlap. Finite elements of
+    /// the section give its matrix of stiffness.
+    pub polygons: Maybe<Vec<At<Table<SectionPolygon>>>>,
+}
+
+/// An area of a cross section: an outline, with holes or without.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SectionPolygon {
+    /// Corners `[y, z]` of the outline, in order round it, three or more.
+    #[schemars(required)]
+    pub points: Maybe<Vec<Numbers<2>>>,
+    /// Outlines of holes within it, each a list of corners. Other polygons may fill them.
+    pub holes: Maybe<Vec<Vec<Numbers<2>>>>,
+    /// Name of an elastic material. Default: that of the beam.
+    pub material: Maybe<String>,
+    /// A layer with fibres, instead of `material`.
+    pub lamina: Maybe<Table<SectionLamina>>,
+}
+
+/// An orthotropic layer: axis 1 along its fibres, 2 across them in the layer, 3 through it.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SectionLamina {
+    /// Young's moduli `[E1, E2, E3]`, above 0.
+    #[schemars(required)]
+    pub youngs_moduli: Maybe<Numbers<3>>,
+    /// Shear moduli `[G12, G13, G23]`, above 0.
+    #[schemars(required)]
+    pub shear_moduli: Maybe<Numbers<3>>,
+    /// Poisson's ratios `[nu12, nu13, nu23]`: `nu12` is the shortening along 2 over the strain along 1 under stress along 1.
+    #[schemars(required)]
+    pub poisson_ratios: Maybe<Numbers<3>>,
+    /// Density, above 0, where the beam needs a mass.
+    pub density: Maybe<f64>,
+    /// Direction `[y, z]` of the layer in the section.
+    #[schemars(required)]
+    pub direction: Maybe<Numbers<2>>,
+    /// Angle of the fibres from the axis of the beam towards `direction`, radians. Default: 0.
+    pub angle: Maybe<f64>,
 }
 
 /// Bars of one material and one size in a section: one, several on a line, or several on a circle.

@@ -308,7 +308,7 @@ fn model<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, files: Files<'d>, 
         cases: asked.cases,
         damping: acting.damping,
         expects: asked.expects,
-        origin: Origin { mesh, records: files.origins(), rigid },
+        origin: Origin { mesh, records: files.origins(), rigid, sections: scene.parts.sections },
         output: asked.selection.output,
         study: asked.study,
     };
@@ -456,7 +456,7 @@ fn ground<'d>(
     shells(&mut context);
     superelements(files.matrices, &mut context);
     let PartContext { groups, mut parts, sections, .. } = context;
-    (parts.stiffnesses, parts.stresses) = (sections.stiffnesses, sections.stresses);
+    (parts.stiffnesses, parts.stresses, parts.sections) = (sections.stiffnesses, sections.stresses, sections.facts);
     let (bodies, rigid) = rigid_bodies(deck, analysis.has_inertia(), bodies, &mut parts, &mut nodes, report);
     let scene = Scene { deck, stage, analysis, names, bodies, parts, motion_curves };
     Ground { scene, nodes, groups, rigid, amplitudes }

@@ -26,6 +26,7 @@ mod materials;
 mod merge_diagnostics;
 pub mod mesh;
 mod mesh_file;
+mod meshed_sections;
 mod motion_curves;
 mod moving_frames;
 mod names;

@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 
-use super::data::Part;
+use super::data::{Part, SectionFacts};
 use super::report::Report;
 use base::diagnostic::Span;
 use base::math::Mat3;
@@ -59,6 +59,8 @@ pub(super) struct Parts {
     pub stiffnesses: Vec<Stiffness>,
     /// What stresses of these sections follow from.
     pub stresses: Vec<Option<SectionStresses>>,
+    /// Numbers of sections of polygons.
+    pub sections: Vec<SectionFacts>,
     /// Ends of beams that are held to their points in some directions alone.
     pub releases: Vec<ReleasedEnd>,
     /// One for each table of a deformable part that has been begun.

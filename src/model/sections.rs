@@ -1,7 +1,8 @@
 //! `[sections.x]`, of the material of a beam: section stiffnesses, and fibres where it yields.
 
-use super::data::MassKind;
+use super::data::{MassKind, SectionFacts};
 use super::materials::Materials;
+use super::meshed_sections::{self, PolygonSettings, meshed_section, polygon_materials};
 use super::reinforcement::{SectionPart, is_composite, reinforce, require_concrete, with_fibres};
 use super::report::{Owner, Report};
 use base::diagnostic::At;
@@ -31,6 +32,8 @@ pub(super) struct Sections<'a, 'd> {
     pub stiffnesses: Vec<Stiffness>,
     /// What stresses of these sections follow from.
     pub stresses: Vec<Option<SectionStresses>>,
+    /// Numbers of the sections of polygons.
+    pub facts: Vec<SectionFacts>,
 }
 
 impl<'a, 'd> Sections<'a, 'd> {
@@ -42,6 +45,7 @@ impl<'a, 'd> Sections<'a, 'd> {
             known: HashMap::new(),
             stiffnesses: Vec::new(),
             stresses: Vec::new(),
+            facts: Vec::new(),
         }
     }
 
@@ -63,8 +67,14 @@ impl<'a, 'd> Sections<'a, 'd> {
         {
             return report.error(counts, format!("a section has at most {MOST_FIBRES} fibres"));
         }
-        let (CrossSection::Shape(shape), factor) = cross_section(&name.value, section, false, report)? else {
-            return None;
+        let (shape, factor) = match cross_section(&name.value, section, false, report)? {
+            (CrossSection::Shape(shape), factor) => (shape, factor),
+            (CrossSection::Stiffness(_), _) => return None,
+            (CrossSection::Polygons { .. }, _) => {
+                let message =
+                    format!("section `{}` of polygons has no fibres, so its material must not yield", name.value);
+                return report.error_with(&made_of.span, message, "take model \"elastic\", or another shape");
+            }
         };
         let made = whole(&*shape, ratio, factor).and_then(|section| shape.fibres(&numbers, &section));
         let (fibres, counts) = match made.and_then(|fibres| Ok((fibres, shape.counts(&numbers)?))) {
@@ -97,6 +107,9 @@ impl<'a, 'd> Sections<'a, 'd> {
         };
         let name = report.require(owner, "section", section)?;
         let (section_index, section) = report.find("section", self.table, name)?;
+        if section.polygons.is_some() {
+            return self.polygon_section((name, section_index, section), made_of, (mass, shear), report);
+        }
         let direct = section.kind.as_ref().is_some_and(|kind| !(kind.make.takes_material)(&section.values));
         if direct && let Some((given, _)) = &material {
             let message = format!("section `{}` gives stiffnesses, so {} takes no material", name.value, owner.what);
@@ -138,6 +151,51 @@ impl<'a, 'd> Sections<'a, 'd> {
         });
         self.known.insert(key, index);
         index
+    }
+
+    /// Index of the stiffness of a section of polygons, see [`Sections::beam_section`].
+    fn polygon_section(
+        &mut self,
+        (name, index, section): (&'d At<String>, usize, &'d At<OneOf<words::Section>>),
+        made_of: &'d Maybe<String>,
+        (mass, shear): (MassKind, bool),
+        report: &mut Report<'d>,
+    ) -> Option<usize> {
+        let polygons = section.polygons.as_ref()?;
+        let (kind, _) = cross_section(&name.value, section, false, report)?;
+        let CrossSection::Polygons { axis, mesh_size } = kind else {
+            let message = format!("`polygons` do not apply to section `{}`, which has another shape", name.value);
+            return report.error_with(&polygons.span, message, "remove them, or write `shape = \"polygons\"`");
+        };
+        let own = Owner::new(format!("section `{}`", name.value), &section.span);
+        if is_composite(section) {
+            let message = format!("{} is made of polygons, so it takes no `bars`, `core` and `cover`", own.what);
+            return report.error_with(&name.span, message, "give each material a polygon");
+        }
+        let needs_mass = self.materials.needs_mass(mass);
+        let made_of = made_of.as_ref();
+        let material = match made_of {
+            Some(made_of) => Some(self.materials.find(made_of, report)?.0),
+            None => None,
+        };
+        let key = (index, material, [needs_mass, shear]);
+        if let Some(known) = self.known.get(&key) {
+            return *known;
+        }
+        let polygons = (&own, polygons.value.as_slice());
+        let materials = polygon_materials(polygons, made_of, self.materials, needs_mass, report);
+        let settings = PolygonSettings { axis, mesh_size };
+        let made = materials.and_then(|materials| meshed_section(section, polygons, &materials, settings, report));
+        let number = made.map(|made| {
+            if self.facts.iter().all(|known| known.name != name.value) {
+                self.facts.push(SectionFacts { name: name.value.clone(), ..made.facts });
+            }
+            self.stresses.push(made.stresses);
+            self.stiffnesses.push(if shear { made.stiffness } else { made.stiffness.without_shear() });
+            self.stiffnesses.len() - 1
+        });
+        self.known.insert(key, number);
+        number
     }
 
     /// The material of the core of a section.
@@ -211,6 +269,9 @@ impl<'a, 'd> Sections<'a, 'd> {
     /// A key that keeps the dimensions of two sections of one shape from being linear between them.
     pub fn differing_key(&self, names: [&At<String>; 2]) -> Option<&'static str> {
         let [a, b] = self.of_one_shape(names)?;
+        if a.polygons.is_some() || b.polygons.is_some() {
+            return Some("polygons");
+        }
         a.values.differs(&b.values, UNUSED)
     }
 
@@ -225,7 +286,7 @@ impl<'a, 'd> Sections<'a, 'd> {
         part: f64,
     ) -> Option<Result<(Stiffness, Option<SectionStresses>), String>> {
         let [a, b] = self.of_one_shape(names)?;
-        if a.values.differs(&b.values, UNUSED).is_some() {
+        if self.differing_key(names).is_some() {
             return None;
         }
         let values = a.values.toward(&b.values, part, UNUSED);
@@ -238,6 +299,7 @@ impl<'a, 'd> Sections<'a, 'd> {
         let shape = match section {
             CrossSection::Stiffness(stiffness) => return Some(Ok((*stiffness, None))),
             CrossSection::Shape(shape) => shape,
+            CrossSection::Polygons { .. } => return None,
         };
         let material = self.materials.named(made_of.as_ref()?)?;
         let (modulus, ratio) = (material.youngs_modulus.as_ref()?.value, material.poisson_ratio.as_ref()?.value);
@@ -282,6 +344,11 @@ fn stiffness<'d>(
     let (shape, factor) = match cross_section(name, section, needs_mass, report)? {
         (CrossSection::Stiffness(stiffness), _) => return Some((*stiffness, None)),
         (CrossSection::Shape(shape), factor) => (shape, factor),
+        (CrossSection::Polygons { .. }, _) => {
+            let owner = Owner::new(format!("section `{name}`"), &section.span);
+            report.require(&owner, "polygons", &section.polygons)?;
+            return None;
+        }
     };
     match whole(&*shape, ratio, factor) {
         Ok(made) => Some((made.stiffness(modulus, ratio, density), shape.stresses(ratio, &made))),
@@ -296,6 +363,7 @@ pub(super) fn half_depth(section: &At<OneOf<words::Section>>) -> f64 {
     let mut given = Given::new("the section", &section.span, &section.values, Vec::new());
     match (kind.make.read)(&mut given, false) {
         Some(CrossSection::Shape(shape)) => shape.half_depth(),
+        Some(CrossSection::Polygons { .. }) => meshed_sections::half_depth(section),
         Some(CrossSection::Stiffness(_)) | None => 0.0,
     }
 }

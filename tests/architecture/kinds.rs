@@ -35,7 +35,18 @@ const CATALOGUES: [(&str, &[&str]); 7] = [
     ("results/tables", &["shell_order"]),
     (
         "mechanics/sections",
-        &["dimensions", "fibres", "matrices", "profile", "rounded", "section", "section_shape", "stresses", "wall"],
+        &[
+            "dimensions",
+            "fibres",
+            "matrices",
+            "profile",
+            "rounded",
+            "section",
+            "section_shape",
+            "section_triangle",
+            "stresses",
+            "wall",
+        ],
     ),
     ("mechanics/solids", &["element_faces", "hollow", "hull_points", "kind", "outline", "segment"]),
 ];

@@ -8,6 +8,7 @@ mod joints;
 mod materials;
 mod offset_masses;
 mod profiles;
+mod section_polygons;
 mod shear_areas;
 mod shear_rigid;
 mod shells;

@@ -14,11 +14,13 @@ pub mod hollow_box;
 pub mod i;
 pub mod l;
 mod matrices;
+pub mod polygons;
 mod profile;
 pub mod rectangle;
 pub mod rounded;
 pub mod section;
 pub mod section_shape;
+pub mod section_triangle;
 pub mod stresses;
 pub mod tube;
 mod wall;
@@ -30,8 +32,17 @@ pub use section_shape::{CrossSection, SectionKind, SectionShape};
 pub use stresses::{BeamStresses, SectionOutline, SectionStresses};
 
 /// All shapes of sections, in the order of the reference.
-pub static SECTIONS: &[&SectionKind] =
-    &[&rectangle::KIND, &circle::KIND, &tube::KIND, &hollow_box::KIND, &i::KIND, &c::KIND, &l::KIND, &general::KIND];
+pub static SECTIONS: &[&SectionKind] = &[
+    &rectangle::KIND,
+    &circle::KIND,
+    &tube::KIND,
+    &hollow_box::KIND,
+    &i::KIND,
+    &c::KIND,
+    &l::KIND,
+    &polygons::KIND,
+    &general::KIND,
+];
 
 #[cfg(test)]
 mod tests {

@@ -107,7 +107,8 @@ impl Profile {
                 for offset in [0.5 * t, -0.5 * t] {
                     let at = from + s * length * e + offset * Vector2::new(-e.y, e.x) - Vector2::from(center);
                     let twist = (shear.circulation / t - 2.0 * offset) / section.torsion;
-                    points.push(StressPoint { at: at.into(), wall: k, shear: [[flows[0], flows[1], twist], [0.0; 3]] });
+                    let shear = [[flows[0], flows[1], twist], [0.0; 3]];
+                    points.push(StressPoint { at: at.into(), wall: k, modulus: 1.0, shear });
                 }
             }
         }

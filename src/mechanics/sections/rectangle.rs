@@ -136,17 +136,22 @@ fn rectangle_points(width: f64, height: f64, nu: f64, section: &Section) -> Vec<
     let (y, z) = (0.5 * width, 0.5 * height);
     let along_y = flexure(width, height, nu).map(|tau| tau / section.area);
     let along_z = flexure(height, width, nu).map(|tau| tau / section.area);
-    let corner = |at: [f64; 2]| StressPoint { at, wall: 0, shear: [[0.0; 3]; 2] };
+    let corner = |at: [f64; 2]| StressPoint { at, wall: 0, modulus: 1.0, shear: [[0.0; 3]; 2] };
     let mut points: Vec<StressPoint> = [[y, z], [-y, z], [-y, -z], [y, -z]].map(corner).into();
     for side in [1.0, -1.0] {
         let [_, twist] = rectangle_twist(width, height, side * y, 0.0);
         let shear = [[0.0; 3], [0.0, along_z[1], twist / section.torsion]];
-        points.push(StressPoint { at: [side * y, 0.0], wall: 0, shear });
+        points.push(StressPoint { at: [side * y, 0.0], wall: 0, modulus: 1.0, shear });
         let [twist, _] = rectangle_twist(width, height, 0.0, side * z);
         let shear = [[along_y[1], 0.0, twist / section.torsion], [0.0; 3]];
-        points.push(StressPoint { at: [0.0, side * z], wall: 0, shear });
+        points.push(StressPoint { at: [0.0, side * z], wall: 0, modulus: 1.0, shear });
     }
-    points.push(StressPoint { at: [0.0; 2], wall: 0, shear: [[along_y[0], 0.0, 0.0], [0.0, along_z[0], 0.0]] });
+    points.push(StressPoint {
+        at: [0.0; 2],
+        wall: 0,
+        modulus: 1.0,
+        shear: [[along_y[0], 0.0, 0.0], [0.0, along_z[0], 0.0]],
+    });
     points
 }
 

@@ -103,6 +103,13 @@ impl Stiffness {
         K
     }
 
+    /// The torsional stiffness about the shear centre; `None` where the matrix has no inverse.
+    pub fn torsion(&self) -> Option<f64> {
+        let scale = self.matrix().diagonal().map(|d| d.sqrt().recip());
+        let scaled = self.matrix().component_mul(&(scale * scale.transpose()));
+        Some(1.0 / (scaled.try_inverse()?[(3, 3)] * scale[3] * scale[3]))
+    }
+
     /// The section with another matrix.
     pub fn with_matrix(&self, K: &Mat6) -> Stiffness {
         let block = |i: usize, j: usize| K.fixed_view::<3, 3>(i, j).into_owned();

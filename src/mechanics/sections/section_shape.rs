@@ -25,6 +25,13 @@ pub enum CrossSection {
     Shape(Box<dyn SectionShape>),
     /// Stiffnesses and masses per length, as given.
     Stiffness(Box<Stiffness>),
+    /// Polygons, which stand in a list of their own.
+    Polygons {
+        /// Place (y, z) of the beam's axis; `None` for the centroid.
+        axis: Option<[f64; 2]>,
+        /// Longest edge of a triangle; `None` for that by the shape.
+        mesh_size: Option<f64>,
+    },
 }
 
 /// The shape of a section: from it follow the section as a whole and its fibres.

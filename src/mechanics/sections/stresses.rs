@@ -70,6 +70,8 @@ pub struct StressPoint {
     pub at: [f64; 2],
     /// The number of its wall; 0 in a full shape.
     pub wall: usize,
+    /// Young's modulus over that of the area and moments of the section.
+    pub modulus: f64,
     /// Two components of the shear stress, each for a unit V_y, a unit V_z, both through the shear centre, and a unit torsional moment.
     pub shear: [[f64; 3]; 2],
 }
@@ -145,8 +147,8 @@ impl SectionStresses {
         let mut found = BeamStresses::default();
         match self.outline {
             SectionOutline::Points(ref points) => {
-                for StressPoint { at: [y, z], shear, .. } in points {
-                    found.include(sigma(*y, *z), &shear.map(|s| s[0] * Vy + s[1] * Vz + s[2] * twist));
+                for StressPoint { at: [y, z], modulus, shear, .. } in points {
+                    found.include(modulus * sigma(*y, *z), &shear.map(|s| s[0] * Vy + s[1] * Vz + s[2] * twist));
                 }
             }
             SectionOutline::Circle { outer, inner, nu } => {

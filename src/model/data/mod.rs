@@ -51,7 +51,7 @@ pub use loading::{
     BaseAcceleration, Centrifugal, Damping, Load, LoadOrigin, LoadedCoordinate, Loading, NodalDamping, OwnDamping,
     Pressure, RotationAxis, TurningMasses,
 };
-pub use model::{MeshFile, Model, Origin, RecordFile, Rigid};
+pub use model::{MeshFile, Model, Origin, RecordFile, Rigid, SectionFacts};
 pub use modes::{ModeExtent, ModesAsked};
 pub use moving_frame::{MovingFrame, MovingFrames};
 pub use node::{Body, DIRECTIONS, Mass, Node};

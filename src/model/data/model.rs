@@ -129,6 +129,25 @@ pub struct Origin {
     pub records: Vec<RecordFile>,
     /// Bodies made of parts, whose elements have left the model.
     pub rigid: Vec<Rigid>,
+    /// Sections of polygons that beams use, in the order of the beams.
+    pub sections: Vec<SectionFacts>,
+}
+
+/// Numbers of a section that finite elements of the section gave.
+#[derive(Debug, Clone)]
+pub struct SectionFacts {
+    /// Its name.
+    pub name: String,
+    /// Number of triangles.
+    pub triangles: usize,
+    /// Area.
+    pub area: f64,
+    /// Centroid, where each area counts by its Young's modulus, in the coordinates of the polygons.
+    pub centroid: [f64; 2],
+    /// Shear centre in the coordinates of the polygons.
+    pub shear_center: [f64; 2],
+    /// Stiffness and mass about the centroid.
+    pub stiffness: Stiffness,
 }
 
 /// The file of a record.

@@ -10,6 +10,7 @@ use crate::scene::Scene;
 use crate::values::keys;
 use base::diagnostic::At;
 use base::math::Vec3;
+use deck::Deck;
 use deck::loads as words;
 use deck::parts::PartIndex;
 use deck::words::Table;
@@ -109,6 +110,17 @@ fn parts<'d>(scene: &Scene<'d>, place: Place, name: &At<String>, report: &mut Re
     found
 }
 
+/// True where a polygon of a section of a beam has a material of its own: its strain in heat may differ from that beside it.
+fn has_polygons_of_materials(deck: &Deck, beam: usize) -> bool {
+    let beam = &deck.beams[beam];
+    let stations = beam.stations.iter().flat_map(|stations| &stations.value);
+    let sections = stations.filter_map(|station| station.section.as_ref()).chain(beam.section.as_ref());
+    let polygons = sections
+        .filter_map(|name| deck.sections.position(name.as_str()))
+        .filter_map(|index| deck.sections.0[index].1.polygons.as_ref());
+    polygons.flat_map(|polygons| &polygons.value).any(|polygon| polygon.material.is_some() || polygon.lamina.is_some())
+}
+
 /// The displacements of the numbers of a part, and its length last.
 fn heat<'d>(
     scene: &Scene<'d>,
@@ -118,6 +130,11 @@ fn heat<'d>(
     report: &mut Report<'d>,
 ) -> Option<[f64; 4]> {
     let table = scene.deck.part(part)?;
+    if part.kind.has_sections() && has_polygons_of_materials(scene.deck, part.index) {
+        let message =
+            format!("a temperature acts on `{}`, whose section has polygons with materials of their own", name.value);
+        return report.error_with(&name.span, message, "give the beam the one `material` of all polygons");
+    }
     let material = table.table.material().and_then(|name| scene.deck.materials.position(name.as_str()));
     let expansion = material.and_then(|index| scene.deck.materials.0[index].1.expansion.as_ref());
     let Some(expansion) = expansion else {

@@ -10,7 +10,9 @@ pub fn named_materials(deck: &Deck) -> HashSet<&str> {
     let of_cores = sections().filter_map(|section| section.core.as_ref());
     let bars = sections().filter_map(|section| section.bars.as_ref()).flat_map(|bars| &bars.value);
     let of_bars = bars.filter_map(|bars| bars.material.as_ref());
-    of_parts.chain(of_cores).chain(of_bars).map(|name| name.as_str()).collect()
+    let polygons = sections().filter_map(|section| section.polygons.as_ref()).flat_map(|polygons| &polygons.value);
+    let of_polygons = polygons.filter_map(|polygon| polygon.material.as_ref());
+    of_parts.chain(of_cores).chain(of_bars).chain(of_polygons).map(|name| name.as_str()).collect()
 }
 
 /// Sections that a beam of the deck names.

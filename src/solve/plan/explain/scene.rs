@@ -5,7 +5,7 @@ use super::{bars, beams, contacts, links, shells};
 use crate::plan::Plan;
 use crate::system::System;
 use base::names::{joined, short};
-use model::{Joint, JointCoordinate, MeshFile, Model, Part, PartKind, Reduction};
+use model::{Joint, JointCoordinate, MeshFile, Model, Part, PartKind, Reduction, SectionFacts};
 
 /// The lines about the parts of each kind.
 const PARTS: [fn(&mut Explanation, &Model, &System); 5] =
@@ -17,6 +17,7 @@ pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &Syst
     if let Some(MeshFile { path, nodes, elements, used, .. }) = &model.origin.mesh {
         text.add("mesh", format!("`{path}`: {nodes} nodes, {elements} elements, {used} of them in parts"));
     }
+    model.origin.sections.iter().for_each(|facts| text.add("section", section(facts)));
     for rigid in &model.origin.rigid {
         let body = &model.bodies[rigid.body];
         let words: Vec<&str> = rigid.parts.iter().map(String::as_str).collect();
@@ -36,6 +37,24 @@ pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &Syst
     }
     explain_coordinates(text, model);
     PARTS.iter().for_each(|explain| explain(text, model, system));
+}
+
+/// A section of polygons in words.
+fn section(facts: &SectionFacts) -> String {
+    let SectionFacts { name, triangles, area, centroid, shear_center, stiffness } = facts;
+    let place = |at: &[f64; 2]| format!("[{}, {}]", short(at[0]), short(at[1]));
+    let [EA, GAy, GAz, GJ, EIy, EIz] = stiffness.matrix().diagonal().map(short).into();
+    let twist = stiffness.torsion().map_or(GJ, short);
+    let (centroid, center, mass) = (place(centroid), place(shear_center), short(stiffness.mass_per_length));
+    let skew = match stiffness.M[(1, 2)] {
+        0.0 => String::new(),
+        product => format!(", product of bending {}", short(product)),
+    };
+    format!(
+        "`{name}`: area {}, EA {EA}, GA [{GAy}, {GAz}], GJ {twist}, EI [{EIy}, {EIz}]{skew}, mass {mass} per length, centroid {centroid}, \
+         shear centre {center}; {triangles} triangles",
+        short(*area)
+    )
 }
 
 /// A reduced part, or pieces of one, in words.
