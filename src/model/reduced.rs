@@ -5,7 +5,7 @@
 
 mod connected;
 
-use super::data::{Beam, EQUAL_MODES, LoadOrigin, Model, Node, OwnDamping, Part, PartType, Reduction};
+use super::data::{AnalysisKind, Beam, EQUAL_MODES, LoadOrigin, Model, Node, OwnDamping, Part, PartType, Reduction};
 use super::plausibility::unused::visit_actors;
 use super::report::Report;
 use base::diagnostic::{At, Span};
@@ -137,6 +137,7 @@ fn pieces(model: &Model, of: &Asked, (parts, count): (&[usize], usize), report: 
         parts: parts.to_vec(),
         elements,
         interface: Vec::new(),
+        carried: Vec::new(),
         inner: Vec::new(),
         amplitudes: Vec::new(),
         modes: 0,
@@ -191,12 +192,8 @@ fn reduction(
     }
     let is_interface = |node: &&usize| acting.contains(node) || shared.contains(node);
     let mut interface: Vec<usize> = nodes.iter().filter(is_interface).copied().collect();
-    // The frame of a free part moves with the node nearest to its middle.
     if interface.is_empty() {
-        let x = |node: &usize| model.nodes[*node].x;
-        let middle = nodes.iter().map(x).sum::<Vec3>() / nodes.len() as f64;
-        let away = |node: &usize| (x(node) - middle).norm();
-        interface.extend(nodes.iter().copied().min_by(|a, b| away(a).total_cmp(&away(b))));
+        interface.extend(middle_node(model, &nodes));
     }
     // Stages of other interfaces have as many amplitudes; those beyond the modes are left out with the matrices.
     let most = 6 * nodes.len();
@@ -219,7 +216,48 @@ fn reduction(
     };
     let amplitudes = amplitudes(model, &label, interface[0], (extent.modes + EQUAL_MODES + RIGID_LOADS).min(most));
     let Extent { modes, up_to, geometric, .. } = *extent;
-    Some(Reduction { interface, inner, amplitudes, modes: modes.min(most), up_to, geometric, damping, ..piece })
+    let (interface, carried) = carried_by_bodies(model, interface);
+    Some(Reduction {
+        interface,
+        carried,
+        inner,
+        amplitudes,
+        modes: modes.min(most),
+        up_to,
+        geometric,
+        damping,
+        ..piece
+    })
+}
+
+/// The node nearest to the middle of a free part, with which its frame moves.
+fn middle_node(model: &Model, nodes: &BTreeSet<usize>) -> Option<usize> {
+    let x = |node: &usize| model.nodes[*node].x;
+    let middle = nodes.iter().map(x).sum::<Vec3>() / nodes.len() as f64;
+    let away = |node: &usize| (x(node) - middle).norm();
+    nodes.iter().copied().min_by(|a, b| away(a).total_cmp(&away(b)))
+}
+
+/// Puts the node of a body in place of nodes of the interface that are rigidly attached to it, two or more. Returns the interface, and these nodes
+/// with the places of the bodies' nodes in it. Stages may attach other nodes, so their interfaces stay.
+fn carried_by_bodies(model: &Model, interface: Vec<usize>) -> (Vec<usize>, Vec<(usize, usize)>) {
+    if model.analysis.stage.is_some() {
+        return (interface, Vec::new());
+    }
+    let dependents = &model.constraints.dependents;
+    let is_attached = |node: usize| dependents.iter().any(|other| other.node == node);
+    let master = |node: &usize| {
+        let own = dependents.iter().find(|dependent| dependent.node == *node && dependent.dofs == [true; 6])?;
+        (!is_attached(own.master) && !interface.contains(&own.master)).then_some(own.master)
+    };
+    let masters: Vec<Option<usize>> = interface.iter().map(master).collect();
+    let is_shared = |of: usize| masters.iter().filter(|other| **other == Some(of)).count() > 1;
+    let masters: Vec<Option<usize>> = masters.iter().map(|of| of.filter(|of| is_shared(*of))).collect();
+    let kept: BTreeSet<usize> = interface.iter().zip(&masters).map(|(node, of)| of.unwrap_or(*node)).collect();
+    let kept: Vec<usize> = kept.into_iter().collect();
+    let place = |of: usize| kept.partition_point(|node| *node < of);
+    let carried = interface.iter().zip(&masters).filter_map(|(node, of)| Some((*node, place((*of)?)))).collect();
+    (kept, carried)
 }
 
 /// Refuses parts that no elements join: they have one frame.
@@ -342,9 +380,9 @@ fn refuse(model: &Model, part: &DeckPart, parts: &[usize], place: &Span, report:
             "leave `reduced` out, or the section's `offset`, and put the centre of its mass on the axis",
         ),
         (
-            is_turning(),
-            format!("a centrifugal load does not act on {title}, which is reduced"),
-            "leave `reduced` out, or let a support with a `motion` turn all in dynamics",
+            model.analysis.kind != AnalysisKind::Static && is_turning(),
+            format!("a centrifugal load acts on {title}, which is reduced, in statics alone"),
+            "leave `reduced` out: its modes would lack the stiffness of the load",
         ),
         (
             model.analysis.is_dynamic() && model.solution.scheme.is_explicit(),

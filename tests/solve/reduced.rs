@@ -342,6 +342,12 @@ fn what_shapes_do_not_have_is_refused() {
             format!("{dynamic}{}", arm.replace("section = \"bar\"\n", BESIDE)),
             "the mass of beam `arm` lies beside its nodes",
         ),
+        (
+            format!(
+                "[analysis]\nkind = \"modal\"\nmodes = 2\n{arm}{CLAMP}[[loads]]\ncentrifugal = {{ speed = 1.0, axis = [0.0, 0.0, 1.0] }}\n"
+            ),
+            "in statics alone",
+        ),
         (format!("{dynamic}{yielding}"), "yields, and reduced shapes are elastic"),
         (
             format!("{dynamic}[integrator]\nscheme = \"central-difference\"\n{arm}"),

@@ -22,6 +22,8 @@ pub struct Reduction {
     pub elements: Option<Range<usize>>,
     /// The nodes by which the rest of the scene acts on the parts, ascending.
     pub interface: Vec<usize>,
+    /// Nodes of the parts that bodies carry, ascending, with the places of the bodies' nodes in the interface.
+    pub carried: Vec<(usize, usize)>,
     /// The other nodes of the parts, ascending.
     pub inner: Vec<usize>,
     /// A node for each amplitude; until the matrices are there, as many as there may be.
@@ -41,6 +43,12 @@ pub struct Reduction {
 }
 
 impl Reduction {
+    /// The nodes of the shapes: the interface, those that bodies carry, and the others.
+    pub fn nodes(&self) -> impl Iterator<Item = usize> + Clone + '_ {
+        let carried = self.carried.iter().map(|(node, _)| *node);
+        self.interface.iter().copied().chain(carried).chain(self.inner.iter().copied())
+    }
+
     /// True where the part has no terms of second order.
     pub fn is_linear(&self) -> bool {
         self.made.as_ref().is_none_or(|made| made.matrices.second_order.is_none())

@@ -11,8 +11,9 @@ use std::sync::Arc;
 
 /// What the matrices of a reduced part follow from.
 pub struct Likeness {
-    /// Nodes of the interface, modes asked for, the highest frequency, and whether there are terms of second order.
-    asked: (usize, usize, Option<f64>, bool),
+    /// Nodes of the interface, bodies that carry nodes by their place there, modes asked for, the highest frequency, and whether there are terms of
+    /// second order.
+    asked: (usize, Vec<usize>, usize, Option<f64>, bool),
     masses: ModalMass,
     /// The nodes of each element, by their place in the part, and its stiffness.
     elements: Vec<(Vec<usize>, Vec<f64>)>,
@@ -28,7 +29,8 @@ impl Likeness {
         each_element(at, &at.nodes_at_rest(), |of_element, _, K| {
             elements.push((of_element.iter().map(|&node| own.place[node]).collect(), K.to_vec()));
         });
-        let asked = (of.interface.len(), of.modes, of.up_to, of.geometric);
+        let carried = of.carried.iter().map(|(_, place)| *place).collect();
+        let asked = (of.interface.len(), carried, of.modes, of.up_to, of.geometric);
         Likeness { asked, masses: reduced::masses(model, of, &own.place), elements }
     }
 

@@ -108,9 +108,9 @@ impl Gyroscopic {
             }
         }
         for part in &at.model.reductions {
-            let nodes = part.interface.iter().chain(&part.inner);
+            let nodes = part.nodes();
             let mass = part.made.as_ref().map_or(0.0, |made| made.mass()) / nodes.clone().count() as f64;
-            nodes.for_each(|&node| orbit([mass; 2], linear(&mode.shape[node]), linear(&mode.quadrature[node])));
+            nodes.for_each(|node| orbit([mass; 2], linear(&mode.shape[node]), linear(&mode.quadrature[node])));
         }
         for (node, _, mass) in at.system.consistent.iter().flat_map(ConsistentMass::pairs) {
             orbit([mass; 2], linear(&mode.shape[node]), linear(&mode.quadrature[node]));

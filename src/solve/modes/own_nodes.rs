@@ -7,7 +7,7 @@ use mechanics::state::{Configuration, Node};
 use model::Reduction;
 use nalgebra::DMatrix;
 
-/// The nodes of a part: its interface, then those inside. Columns hold the motions of these alone.
+/// The nodes of a part: its interface, those that bodies carry, then those inside. Columns hold the motions of these alone.
 pub struct OwnNodes {
     nodes: Vec<usize>,
     /// The place of each node of the scene among them; the number of nodes for others.
@@ -17,7 +17,7 @@ pub struct OwnNodes {
 impl OwnNodes {
     /// Those of a part in a scene of so many nodes.
     pub fn new(of: &Reduction, scene: usize) -> OwnNodes {
-        let nodes: Vec<usize> = of.interface.iter().chain(&of.inner).copied().collect();
+        let nodes: Vec<usize> = of.nodes().collect();
         let mut place = vec![nodes.len(); scene];
         nodes.iter().enumerate().for_each(|(k, &node)| place[node] = k);
         OwnNodes { nodes, place }

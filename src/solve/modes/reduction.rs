@@ -18,7 +18,7 @@ use crate::system::{Loading, System, reduced};
 use crate::tolerances::reduction::{CARRIED, FEW, MOST, PAIR};
 use crate::tolerances::second_order::LARGEST;
 use base::diagnostic::Diagnostic;
-use base::math::{Vec3, Vec6};
+use base::math::{Vec3, Vec6, stack};
 use mechanics::elements::superelement::{
     FloatingElement, InertiaIntegrals, ModalMass, SecondOrder, SuperelementData, dot, products,
 };
@@ -119,7 +119,8 @@ fn alone(model: &Model, of: &Reduction) -> Model {
         (node.v, node.omega) = (Vec3::zeros(), Vec3::zeros());
     });
     let held = |&node: &usize| (0..6).map(move |dof| Restraint { node, dof, motion: None });
-    own.constraints.restraints = of.interface.iter().flat_map(held).collect();
+    let carried = of.carried.iter().map(|(node, _)| node);
+    own.constraints.restraints = of.interface.iter().chain(carried).flat_map(held).collect();
     let analysis = &mut own.analysis;
     let asked = ModesAsked { extent: ModeExtent::Count(of.modes), damped: false, speeds: Vec::new() };
     (analysis.kind, analysis.is_linear, analysis.plane) = (AnalysisKind::Modal(asked), false, false);
@@ -240,6 +241,11 @@ fn columns(
         let of_unit = |(k, x): (usize, &Vec<f64>)| {
             let mut motions = own.of(&at.motions(nodes, x));
             motions[k / 6][k % 6] = 1.0;
+            let [d, theta] = [0, 3].map(|at| Vec3::from_fn(|axis, _| f64::from(k % 6 == at + axis)));
+            for &(node, _) in of.carried.iter().filter(|(_, place)| *place == k / 6) {
+                let arm = at.model.nodes[node].x - at.model.nodes[of.interface[k / 6]].x;
+                motions[own.place[node]] = stack(&(d + theta.cross(&arm)), &theta);
+            }
             motions
         };
         statics.iter().enumerate().map(of_unit).collect()
@@ -329,7 +335,8 @@ impl Shapes<'_> {
         if of.geometric && placed + count <= LARGEST {
             matrices.second_order = self.second_order(&made.stiffness, &matrices).map(Arc::new);
         }
-        let shapes = self.columns.column_iter().flat_map(|column| column.into_owned().as_slice()[placed..].to_vec());
+        let first = placed + 6 * of.carried.len();
+        let shapes = self.columns.column_iter().flat_map(|column| column.into_owned().as_slice()[first..].to_vec());
         let shapes = shapes.collect();
         let integrals = has_mass.then(|| Arc::new(InertiaIntegrals::new(&self.masses, &self.columns)));
         let frequencies = modes.kept[..count].iter().map(|(square, _)| square.max(0.0).sqrt() / TAU).collect();

@@ -73,7 +73,7 @@ pub fn masses(model: &Model, of: &Reduction, place: &[usize]) -> ModalMass {
     let at_nodes = lumped.iter().map(|inertia| (place[inertia.node], place[inertia.node], inertia.mass));
     let pairs = consistent.iter().flat_map(|mass| mass.pairs().map(|(a, b, m)| (place[a], place[b], m)));
     ModalMass {
-        Y: of.interface.iter().chain(&of.inner).map(|&node| x[node] - mean).collect(),
+        Y: of.nodes().map(|node| x[node] - mean).collect(),
         masses: at_nodes.filter(|(.., mass)| *mass > 0.0).chain(pairs).collect(),
         rotary: lumped
             .iter()
