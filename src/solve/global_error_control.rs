@@ -192,7 +192,7 @@ impl Run<'_> {
         if let Some(predicted) = predicted.filter(|_| !matches!(outcome, Outcome::Io(_))) {
             // Later steps may be longer than those so far. Pilot runs may have steps twice as long as this run.
             let longest = self.pilot.iter().map(|pilot| 0.5 * pilot.longest()).fold(run.longest(), f64::max);
-            let shorter = (control.error.in_place_of(predicted, run.meets_events(run)), longest);
+            let shorter = (control.error.in_place_of_early(predicted), longest);
             let begun = self.begin_shorter(shorter, control, observer);
             control.error.early += 1;
             return Some(begun);

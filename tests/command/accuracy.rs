@@ -98,8 +98,8 @@ fn a_recommended_deck_gives_the_bytes_of_the_run() {
 }
 
 /// Pilot runs on finer meshes keep the long steps of the first. With steps by their own tolerance they took 0.6 of the steps of the run, now 0.2. They damp
-/// the twist of the block away, so their difference to the run does not lengthen later steps. Longer ones made the twist err by 6.7e-3. Now its error
-/// is 1.0e-3, after 4238 iterations of all runs.
+/// the twist of the block away, so their difference to the run does not lengthen later steps. Longer ones made the twist err by 6.7e-3. Later steps may
+/// be shorter: the twist then errs by 0.8e-3, after 4438 iterations of all runs.
 #[test]
 fn pilot_runs_share_long_steps() {
     let folder = tempfile::tempdir().unwrap();
@@ -114,7 +114,7 @@ fn pilot_runs_share_long_steps() {
     assert!(number("/accuracy/pilot_runs") >= 2.0, "{result}");
     let of_pilots = number("/accuracy/pilot_steps") / number("/accuracy/pilot_runs");
     assert!(of_pilots < 0.4 * number("/counts/steps"), "{of_pilots}");
-    assert_eq!(number("/step_error/tolerance"), number("/step_error/asked"), "{result}");
+    assert!(number("/step_error/tolerance") <= number("/step_error/asked"), "{result}");
     // Half of the true error, and 1.5 times the error asked for.
     let estimate = number("/step_error/estimate");
     assert!(estimate > 0.5e-3 && estimate < 1.5e-3, "{result}");

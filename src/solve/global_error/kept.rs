@@ -104,18 +104,21 @@ impl Kept {
         self.steps_between(from, end).apart(&other.steps_between(from, end))
     }
 
-    /// The least of this ratio of the errors over the whole run and of those between changes of the tolerance. The sums over the whole run count
-    /// intervals with long steps, whose errors may matter less than errors of short steps.
+    /// The ratio of the errors over intervals between changes of the tolerance, at most `whole`. Errors of all intervals add up and grow until the
+    /// end. Sums over the whole run count intervals with long steps, whose errors may matter less than errors of later, shorter steps, so
+    /// the least ratio from any change on counts.
     fn least_apart(&self, other: &Kept, whole: f64) -> f64 {
-        if self.changes.is_empty() {
-            return whole;
-        }
-        let begins = std::iter::once(self.between[0]).chain(self.changes.iter().copied());
-        let ends = self.changes.iter().copied().chain([self.end()]);
+        let end = self.end();
+        let ends = self.changes.iter().copied().chain([end]).rev();
+        let begins = self.changes.iter().rev().copied().chain([self.between[0]]);
+        let (mut errors, mut least) = (0.0, whole);
         // No step lies between a change and an end at the same time.
-        let intervals = begins.zip(ends).filter(|(from, to)| from < to);
-        let apart = |(from, to)| self.steps_between(from, to).apart(&other.steps_between(from, to));
-        intervals.map(apart).fold(whole, f64::min)
+        for (from, to) in begins.zip(ends).filter(|(from, to)| from < to && !self.changes.is_empty()) {
+            let apart = self.steps_between(from, to).apart(&other.steps_between(from, to));
+            errors += ((end - from).powi(2) - (end - to).powi(2)) / apart;
+            least = least.min((end - from).powi(2) / errors);
+        }
+        least
     }
 
     fn steps_between(&self, from: f64, to: f64) -> Steps {

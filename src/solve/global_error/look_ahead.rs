@@ -1,13 +1,15 @@
 //! The error of a run under way, from its difference to a pilot run with longer steps.
 //!
 //! The steps give the ratio a of the errors of both runs. Their difference D then gives the error E = D/(a - 1) of the run so far. The error at
-//! the end follows from its growth. A run whose error will be too large ends early. If its error will be far below the one asked for,
-//! the tolerance of the rest of the run rises.
+//! the end follows from its growth. The tolerance of the rest of the run rises if this error will be far below the one asked for, and falls if it will
+//! be too large. A run ends early where a new one with shorter steps costs less than its rest.
 
 use super::kept::Kept;
 use crate::control::COMPARISONS;
 use crate::tolerances::global_error::{AIM, FAR_APART, SATURATED, WITHIN};
-use crate::tolerances::look_ahead::{FASTEST, FUTILE, JUDGED_AT, MOST, NEAREST, PREDICTED_AT, WORTH};
+use crate::tolerances::look_ahead::{
+    FASTEST, FUTILE, FUTILE_EARLY, JUDGED_AT, LAST_JUDGED, LOWERED_AIM, LOWEST, MOST, NEAREST, PREDICTED_AT, WORTH,
+};
 use crate::tolerances::trace::TELLING;
 use base::snapshot::keep;
 
@@ -75,42 +77,83 @@ impl<'o> LookAhead<'o> {
         if !(PREDICTED_AT..COMPARISONS).contains(&run.times) {
             return;
         }
-        let end = run.end();
         let apart = run.apart_so_far(self.pilot);
         let half = run.times / 2;
         let [before, difference] = [half, run.times].map(|times| run.difference_over(self.pilot, self.extent, times));
         if apart <= TELLING || before <= 0.0 || !difference.is_finite() {
             return;
         }
+        // Recent steps tell the ratio of the errors that this tolerance makes.
+        let recent = run.apart_since(self.pilot, self.looked);
+        self.looked = run.end();
         let [past, longer] = [COMPARISONS, half].map(|times| run.times as f64 / times as f64);
         let growth = (difference / before).log(longer).clamp(0.0, FASTEST);
-        let error = difference / (apart - 1.0);
-        let predicted = error * past.powf(-growth);
+        let rest = Rest::new((past, growth), difference, [apart, recent], f64::from(run.power - 1));
+        let predicted = rest.error();
         // The root mean square over all times is at least this part of that so far.
-        let is_lost = error * past.sqrt() > WITHIN * self.asked;
-        let is_futile = run.times == JUDGED_AT && predicted > FUTILE * self.asked;
+        let is_lost = difference / (apart - 1.0) * past.sqrt() > WITHIN * self.asked;
+        let most = if run.times < JUDGED_AT { FUTILE_EARLY } else { FUTILE };
+        let is_futile = run.times <= LAST_JUDGED && predicted > most * self.asked && rest.is_dearer(self.asked);
         // A comparison run will judge a run far from the pilot run.
         if self.may_end && apart < FAR_APART && (is_lost || is_futile) {
             self.predicted = Some(predicted);
             return;
         }
         // The difference of two runs with nothing in common gives no error.
-        if difference > SATURATED {
-            return;
-        }
-        // Recent steps tell the ratio of the errors that this tolerance makes.
-        let recent = run.apart_since(self.pilot, self.looked);
-        self.looked = end;
-        if !recent.is_finite() {
+        if difference > SATURATED || !recent.is_finite() {
             return;
         }
         // The least ratio of all intervals tells the error at the end. The difference may grow faster yet.
-        let at_end = difference * past.powf(-growth - 1.0);
-        let needed = (1.0 + at_end / (AIM * self.asked)).max(NEAREST);
-        let tolerance = (recent / needed * self.tolerance).min(MOST * self.asked);
-        if tolerance > WORTH * self.tolerance {
-            self.tolerance = tolerance;
-            self.changed = Some(tolerance);
+        let at_most = difference * past.powf(-growth.max(1.0) - 1.0);
+        let needed = (1.0 + at_most / (AIM * self.asked)).max(NEAREST);
+        let raised = (recent / needed * self.tolerance).min(MOST * self.asked);
+        let factor = rest.factor(self.asked);
+        if raised > WORTH * self.tolerance {
+            self.change(raised);
+        } else if predicted > self.asked && (LOWEST..1.0 / WORTH).contains(&factor) {
+            self.change(factor * self.tolerance);
         }
+    }
+
+    fn change(&mut self, tolerance: f64) {
+        self.tolerance = tolerance;
+        self.changed = Some(tolerance);
+    }
+}
+
+/// The error at the end of a run, after this `past` part of its time.
+struct Rest {
+    past: f64,
+    /// The order of the scheme.
+    order: f64,
+    /// The errors at the end by the steps so far, and by the rest with the tolerance of recent steps.
+    of_past: f64,
+    of_rest: f64,
+}
+
+impl Rest {
+    /// The prediction from a difference that grows with this power of time, if the errors of the pilot run are `apart` times those of the run so
+    /// far and `recent` times those of its rest. The faster errors grow, the more the steps so far matter.
+    fn new((past, growth): (f64, f64), difference: f64, [apart, recent]: [f64; 2], order: f64) -> Rest {
+        let at_end = difference * past.powf(-growth);
+        let left = (1.0 - past).powf(growth.max(1.0));
+        let [of_past, of_rest] = [(1.0 - left) / apart, left / if recent.is_finite() { recent } else { apart }];
+        let per = at_end / ((1.0 / (of_past + of_rest)).max(TELLING) - 1.0) / (of_past + of_rest);
+        Rest { past, order, of_past: per * of_past, of_rest: per * of_rest }
+    }
+
+    fn error(&self) -> f64 {
+        self.of_past + self.of_rest
+    }
+
+    /// The factor on the errors of the rest that leaves the error asked for.
+    fn factor(&self, asked: f64) -> f64 {
+        (LOWERED_AIM * asked - self.of_past) / self.of_rest
+    }
+
+    /// True if the rest with smaller errors takes longer than a whole run with smaller errors.
+    fn is_dearer(&self, asked: f64) -> bool {
+        let longer = |factor: f64| factor.max(0.0).powf(-1.0 / self.order);
+        (1.0 - self.past) * longer(self.factor(asked)) > longer(AIM * asked / self.error())
     }
 }

@@ -9,7 +9,9 @@ mod kept;
 mod look_ahead;
 mod trace;
 
-use crate::tolerances::global_error::{AIM, CHANGE, CHANGE_WITH_EVENTS, FAR_APART, LOST, SATURATED, WITHIN};
+use crate::tolerances::global_error::{
+    AIM, CHANGE, CHANGE_EARLY, CHANGE_WITH_EVENTS, FAR_APART, LOST, SATURATED, WITHIN,
+};
 pub use kept::Kept;
 pub use look_ahead::LookAhead;
 pub use trace::{Trace, Unseen};
@@ -78,10 +80,16 @@ impl StepError {
         sum.cuts += effort.cuts;
     }
 
-    /// The tolerance of a run in place of one with this predicted error. Errors that events leave show in runs far apart alone.
-    pub fn in_place_of(&self, predicted: f64, meets_events: bool) -> f64 {
-        let [least, most] = if meets_events { CHANGE_WITH_EVENTS } else { CHANGE };
+    /// The tolerance of a run in place of one that has ended early because of this predicted error.
+    pub fn in_place_of_early(&self, predicted: f64) -> f64 {
+        let [least, most] = CHANGE_EARLY;
         self.tolerance * (AIM * self.asked / predicted).clamp(least, most)
+    }
+
+    /// The tolerance of a run in place of one with this estimated error. Errors that events leave show in runs far apart alone.
+    pub fn in_place_of(&self, estimate: f64, meets_events: bool) -> f64 {
+        let [least, most] = if meets_events { CHANGE_WITH_EVENTS } else { CHANGE };
+        self.tolerance * (AIM * self.asked / estimate).clamp(least, most)
     }
 
     /// True if a pilot run shows that the error of a complete run is small enough, or its steps are near enough to tell how large it is. A
