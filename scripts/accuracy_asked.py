@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
-"""An error asked for with `accuracy`: the error reached, the settings chosen and the cost.
+"""An error asked for with `accuracy`: the error reached, the settings chosen, and the price beside the best equal steps.
 
-    scripts/accuracy_asked.py                 all scenes (some minutes)
-    scripts/accuracy_asked.py B1 frame        some of them
+    scripts/accuracy_asked.py                 all scenes (half an hour)
+    scripts/accuracy_asked.py B1 loop         some of them
+    scripts/accuracy_asked.py --fixed F.json  keeps the best equal steps in a file, and reads them there
 
-Motions begin with one element of order 2 a segment and no time step; the portal frame C4 begins with one of order 3. Their references are those of scripts/scenes.py. Static scenes have
-as reference the same deck with a much finer mesh and shorter load steps. Python's standard library only.
+The error is that of docs/choosing.md: displacements of named nodes and bodies, and rotations of bodies, each as root mean square over
+all times of output, relative to its largest change. References are the same deck, refined. Equal steps are searched for over meshes, schemes
+and lengths. Times are processor time, less that of a run of one step. Python's standard library only.
 """
 
 import argparse
 import csv
+import json
 import math
 import resource
 import tempfile
@@ -17,80 +20,140 @@ from pathlib import Path
 from typing import NamedTuple
 
 import scenes
-from scenes import ROOT, SCENES, run
+from accuracy_scenes import MOTIONS, STATICS, Motion
+from scenes import ROOT, run
 
 ASKED = (1e-2, 1e-3, 1e-4)
-MOTIONS = ("R1", "R2", "R3", "B1", "B2", "C1", "C2", "C4")
-# Mesh and division of the output interval of the cheapest equal steps (Wilson-theta) in the table of scripts/speed.py.
-BEST = {
-    "R1": {1e-3: (None, 16), 1e-4: (None, 32)},
-    "R2": {1e-3: (None, 5)},
-    "R3": {1e-3: (None, 32), 1e-4: (None, 128)},
-    "B1": {1e-2: ((1, 4), 2), 1e-3: ((1, 4), 6), 1e-4: ((2, 4), 20)},
-    "B2": {1e-2: ((1, 2), 1), 1e-3: ((1, 3), 3), 1e-4: ((2, 3), 6)},
-    "C1": {1e-2: ((1, 3), 1), 1e-3: ((1, 3), 2), 1e-4: ((1, 3), 4)},
-    "C2": {1e-2: ((1, 3), 2), 1e-3: ((1, 4), 5), 1e-4: ((1, 4), 16)},
-    "C4": {1e-2: ((3, 3), 2), 1e-3: ((8, 3), 4)},
-}
+# Steps in an output interval; the search ends where the smallest error is reached or shorter steps no longer help.
+DIVISIONS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128)
+LEAST = 0.01
+"""Results that change less than this part of the largest change of their kind are relative to this part."""
+
+Vector = list[float]
 
 
-class Compared(NamedTuple):
-    """A scene whose reference is the same deck with a finer mesh, shorter steps or stiffer contacts."""
+class History(NamedTuple):
+    """Name -> time -> displacement, name -> time -> quaternion, and the largest distance of nodes at the start."""
 
-    deck: str
-    begin: tuple[str, ...]
-    """Overrides that the run begins with."""
-    fine: tuple[str, ...]
-    """Overrides of the reference."""
+    moved: dict[str, dict[float, Vector]]
+    turned: dict[str, dict[float, Vector]]
+    extent: float
 
 
-COMPARED = {
-    "frame": Compared(
-        "princeton_beam",
-        ("beams.0.elements=1", "beams.0.order=1"),
-        ("beams.0.elements=16", "beams.0.order=4"),
-    ),
-    "yielding": Compared(
-        "plastic_collapse",
-        ("analysis.end_time=0.8", "analysis.time_step=0.1", "beams.0.elements=1"),
-        ("analysis.end_time=0.8", "analysis.time_step=0.02", "beams.0.elements=96"),
-    ),
-    "contact": Compared("tip_on_stop", (), ("contacts.0.stiffness=1e9", "beams.0.elements=4")),
-    "shell": Compared(
-        "pinched_hemisphere",
-        ("shells.0.elements=4", "analysis.time_step=80.0"),
-        ("shells.0.elements=48", "analysis.time_step=80.0"),
-    ),
-}
-
-History = dict[str, dict[float, list[float]]]
+def table_of(path: Path) -> list[dict[str, str]]:
+    if not path.exists():
+        return []
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
 
 
-def displacements(folder: Path) -> History:
-    """Name -> time -> displacement, of nodes.csv without the inner nodes of parts."""
-    found: History = {}
-    with (folder / "nodes.csv").open(newline="") as file:
-        for row in csv.DictReader(file):
-            if not row["node"].endswith("]"):
-                moved = [float(row[key]) for key in ("ux", "uy", "uz")]
-                found.setdefault(row["node"], {})[round(float(row["time"]), 9)] = moved
-    return found
+def history(folder: Path) -> History:
+    """The results of a run that `accuracy` counts."""
+    moved: dict[str, dict[float, Vector]] = {}
+    turned: dict[str, dict[float, Vector]] = {}
+    begins: dict[str, Vector] = {}
+    for name, kind in (("nodes.csv", "node"), ("bodies.csv", "body")):
+        for row in table_of(folder / name):
+            label, time = row[kind], round(float(row["time"]), 10)
+            at = [float(row[key]) for key in ("x", "y", "z")]
+            begins.setdefault(label, at)
+            if not label.endswith("]"):
+                begin = begins[label]
+                moved.setdefault(label, {})[time] = [a - b for a, b in zip(at, begin)]
+            if kind == "body":
+                turned.setdefault(label, {})[time] = [float(row[key]) for key in ("qw", "qx", "qy", "qz")]
+    extent = math.dist(*([pick(at[i] for at in begins.values()) for i in range(3)] for pick in (min, max)))
+    return History(moved, turned, extent)
 
 
-def difference(own: History, exact: History) -> float:
-    """The largest error of a node, relative to its largest displacement, or to a hundredth of the largest of all."""
-    largest = {name: max(math.hypot(*u) for u in at.values()) for name, at in exact.items()}
-    least, errors = 0.01 * max(largest.values()), []
-    for name, at in own.items():
-        times = [time for time in at if time in exact[name]]
-        mean = sum(math.dist(at[time], exact[name][time]) ** 2 for time in times) / len(times)
-        errors.append(math.sqrt(mean) / max(largest[name], least))
+def apart(p: Vector, q: Vector) -> float:
+    """The angle between two rotations."""
+    return 2.0 * min(math.dist(p, q), math.dist(p, [-x for x in q]))
+
+
+def angle(q: Vector, begin: Vector) -> float:
+    """The angle of a rotation since the start."""
+    return 2.0 * math.acos(min(1.0, abs(sum(a * b for a, b in zip(q, begin)))))
+
+
+def root_mean(own: dict[float, Vector], exact: dict[float, Vector], between) -> float:
+    times = [time for time in own if time in exact]
+    return math.sqrt(sum(between(own[time], exact[time]) ** 2 for time in times) / len(times))
+
+
+def part(of: float, scale: float) -> float:
+    """A relative error; bodies that do not move may have no scale."""
+    return of / scale if of > 0 else 0.0
+
+
+def error(own: History, exact: History) -> float:
+    """The largest error of a result, each relative to its largest change."""
+    sizes = {name: max(math.hypot(*u) for u in at.values()) for name, at in exact.moved.items()}
+    angles = {name: max(angle(q, at[min(at)]) for q in at.values()) for name, at in exact.turned.items()}
+    far, wide = max(sizes.values()), max(angles.values(), default=0.0)
+    errors = [part(root_mean(own.moved[name], exact.moved[name], math.dist), max(size, LEAST * far)) for name, size in sizes.items()]
+    for name, size in angles.items():
+        scale = max(size, LEAST * wide, far / exact.extent if exact.extent > 0 else 0.0)
+        errors.append(part(root_mean(own.turned[name], exact.turned[name], apart), scale))
     return max(errors)
 
 
-def chosen(report: dict) -> str:
-    words = [entry.replace("analysis.", "").replace("beams.0.", "") for entry in report["accuracy"]["settings"]]
-    return ", ".join(word for word in words if not word.startswith("time_step=\"auto"))
+class Done(NamedTuple):
+    history: History
+    report: dict
+    seconds: float
+    """Processor time."""
+
+
+def solved(motion: Motion, sets: list[str]) -> Done:
+    """A run of a deck with these overrides."""
+    rows = [f"output.interval={motion.interval!r}"] if motion.interval else []
+    sets = [*rows, "output.energy=false", "expect=[]", *motion.common, *sets]
+    with tempfile.TemporaryDirectory() as folder:
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        done = run(ROOT / motion.deck, sets, Path(folder))
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        return Done(history(done.folder), done.report, seconds)
+
+
+def equal(motion: Motion, mesh: tuple[str, ...], scheme: str, division: int) -> list[str]:
+    """The overrides for equal steps."""
+    return [*mesh, f"analysis.time_step={motion.interval / division!r}", f'integrator={{scheme="{scheme}"}}']
+
+
+def asking(motion: Motion, asked: float) -> list[str]:
+    """The overrides for an error."""
+    return [*motion.begin, f"analysis.accuracy={asked}", 'analysis.time_step="auto"', f'integrator={{scheme="{motion.scheme}"}}']
+
+
+Setting = tuple[float, float, int, list[str]]
+"""Error, seconds, iterations, overrides."""
+
+
+def searched(motion: Motion, exact: History) -> list[Setting]:
+    """All equal steps that were tried."""
+    found: list[Setting] = []
+    for mesh in motion.meshes:
+        for scheme in motion.schemes:
+            last = math.inf
+            for division in DIVISIONS:
+                sets = equal(motion, mesh, scheme, division)
+                try:
+                    done = solved(motion, sets)
+                except RuntimeError:
+                    continue  # steps too long for the scene
+                reached = error(done.history, exact)
+                found.append((reached, done.seconds, done.report["counts"]["iterations"], sets))
+                if reached <= ASKED[-1] or (last < ASKED[0] and reached > 0.8 * last):
+                    break
+                last = reached
+    return found
+
+
+def best(found: list[Setting], asked: float) -> Setting | None:
+    """The cheapest setting that errs by no more than this."""
+    return min((setting for setting in found if setting[0] <= asked), key=lambda setting: setting[1], default=None)
 
 
 def iterations(report: dict) -> list[int]:
@@ -100,81 +163,100 @@ def iterations(report: dict) -> list[int]:
     return [report["accuracy"]["pilot_iterations"], *others, report["counts"]["iterations"]]
 
 
-def timed(deck: Path, sets: list[str], folder: Path) -> tuple[scenes.Run, float]:
-    """A run and its seconds of processor time, start and files included."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = run(deck, sets, folder)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return done, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+def factorizations(report: dict) -> int:
+    found, mesh = report.get("step_error") or {}, report.get("mesh") or {}
+    others = found.get("other_factorizations", 0) + mesh.get("factorizations", 0)
+    return report["accuracy"]["pilot_factorizations"] + others + report["counts"]["factorizations"]
 
 
-def motion(name: str, asked: float, scheme: str | None) -> tuple[float, dict, float]:
-    """A run by the scheme that automatic steps choose where a deck has none, or by another."""
-    scene = SCENES[name]
-    scheme = scheme or ("esdirk3" if scene.beams else "runge-kutta")
-    sets = [f"analysis.accuracy={asked}", 'analysis.time_step="auto"', f'integrator={{scheme="{scheme}"}}', "expect=[]"]
-    sets += ["output.energy=false", *scene.mesh(1, 3 if name == "C4" else 2)]
-    with tempfile.TemporaryDirectory() as folder:
-        done, seconds = timed(scene.deck, sets, Path(folder))
-        return scene.error(done.folder), done.report, seconds
+def chosen(report: dict) -> str:
+    words = [entry.replace("analysis.", "") for entry in report["accuracy"]["settings"]]
+    return ", ".join(word for word in words if not word.startswith('time_step="auto'))
 
 
-def compared(name: str, asked: float, exact: dict[str, History]) -> tuple[float, dict, float]:
-    scene = COMPARED[name]
-    deck = ROOT / "decks" / scene.deck / "deck.toml"
-    with tempfile.TemporaryDirectory() as folder:
-        if name not in exact:
-            exact[name] = displacements(run(deck, [*scene.fine, "expect=[]"], Path(folder)).folder)
-        done, seconds = timed(deck, [f"analysis.accuracy={asked}", *scene.begin, "expect=[]"], Path(folder))
-        return difference(displacements(done.folder), exact[name]), done.report, seconds
+def prices(motion: Motion, asked: float, setting: Setting | None, repeats: int) -> tuple[Done, float, float]:
+    """A run by `accuracy`, its seconds, and those of the best equal steps; both without the start, taken by turns."""
+    # One step of an interval is hardly more than the start.
+    start = [*motion.begin, f"analysis.end_time={motion.interval!r}", f"analysis.time_step={motion.interval!r}"]
+    own, other, begin = math.inf, math.inf, math.inf
+    for _ in range(repeats):
+        done = solved(motion, asking(motion, asked))
+        own = min(own, done.seconds)
+        if setting:
+            other = min(other, solved(motion, setting[3]).seconds)
+        try:
+            begin = min(begin, solved(motion, start).seconds)
+        except RuntimeError:
+            begin = min(begin, 0.002)  # one step too long to converge
+    return done, own - begin, other - begin
 
 
-def best_fixed(name: str, asked: float) -> int:
-    """The iterations of the best equal steps that scripts/speed.py has found."""
-    (mesh, division), scene = BEST[name][asked], SCENES[name]
-    sets = [*(scene.mesh(*mesh) if mesh else []), *scene.step(division), "expect=[]", "output.energy=false"]
-    with tempfile.TemporaryDirectory() as folder:
-        return run(scene.deck, sets, Path(folder)).report["counts"]["iterations"]
-
-
-def line(name: str, asked: float, error: float, report: dict, seconds: float) -> str:
-    accuracy = report["accuracy"]
-    mesh = "" if accuracy["mesh"] is None else f"{accuracy['mesh']:.1e}"
-    steps = (report.get("step_error") or {}).get("estimate") or accuracy.get("load_steps")
+def line(name: str, asked: float, exact: History, setting: Setting | None, repeats: int) -> str:
+    done, own, other = prices(MOTIONS[name], asked, setting, repeats)
+    reached, report = error(done.history, exact), done.report
+    told, parts = report["accuracy"], iterations(report)
+    mesh = "" if told["mesh"] is None else f"{told['mesh']:.1e}"
+    found = report.get("step_error") or {}
+    steps = found.get("estimate") or told.get("load_steps")
     steps = "" if steps is None else f"{steps:.1e}"
-    parts = iterations(report)
-    best = f"{sum(parts) / best_fixed(name, asked):.1f}" if asked in BEST.get(name, {}) else ""
+    price = ["", "", ""]
+    if setting:
+        price = [f"{sum(parts) / setting[2]:.1f}", f"{own / other:.1f}", f"{setting[0]:.1e}: " + " ".join(setting[3])]
     return (
-        f"| {name} | {asked:.0e} | {error:.1e} | {error / asked:.2f} | {mesh} | {steps} | {chosen(report)} |"
-        f" {accuracy['pilot_runs']} | {' + '.join(str(part) for part in parts)} = {sum(parts)} | {seconds:.2f} | {best} |"
+        f"| {name} | {asked:.0e} | {reached:.1e} | {reached / asked:.2f} | {mesh} | {steps} | {chosen(report)} | {told['pilot_runs']},"
+        f" {found.get('runs', 0)} | {' + '.join(str(part) for part in parts)} = {sum(parts)} | {factorizations(report)} | {own:.4f} | {' | '.join(price)} |"
     )
 
 
-def table(names: list[str], scheme: str | None) -> None:
-    print("| scene | asked | reached | reached / asked | mesh, estimated | steps, estimated | chosen | pilots | iterations: pilots, steps, mesh, last | s | over best fixed |")
-    print("|---|---|---|---|---|---|---|---|---|---|---|")
-    exact: dict[str, History] = {}
+def motions(names: list[str], fixed: Path | None, asked: tuple[float, ...], repeats: int) -> None:
+    print(
+        "| scene | asked | reached | reached / asked | mesh, estimated | steps, estimated | chosen | runs: pilots, others | iterations: pilots,"
+        " others, mesh, last | factorizations | s | iterations over best | s over best | best equal steps |"
+    )
+    print("|" + "---|" * 14)
+    kept = json.loads(fixed.read_text()) if fixed and fixed.exists() else {}
     for name in names:
-        for asked in ASKED:
+        motion = MOTIONS[name]
+        exact = solved(motion, list(motion.fine)).history
+        if name not in kept:
+            kept[name] = {"known to": error(solved(motion, list(motion.check)).history, exact), "found": searched(motion, exact)}
+            if fixed:
+                fixed.write_text(json.dumps(kept))
+        print(f"{name}: a coarser reference differs by {kept[name]['known to']:.1e}")
+        for wanted in asked:
             try:
-                is_motion = name in MOTIONS
-                error, report, seconds = motion(name, asked, scheme) if is_motion else compared(name, asked, exact)
+                print(line(name, wanted, exact, best(kept[name]["found"], wanted), repeats), flush=True)
             except RuntimeError as failed:
-                print(f"| {name} | {asked:.0e} | {failed} |")
+                print(f"| {name} | {wanted:.0e} | {failed} |", flush=True)
+
+
+def statics(names: list[str], asked: tuple[float, ...]) -> None:
+    """Scenes of load steps, whose references have a much finer mesh."""
+    for name in names:
+        scene = STATICS[name]
+        exact = solved(scene, list(scene.fine)).history
+        for wanted in asked:
+            try:
+                done = solved(scene, [*scene.begin, f"analysis.accuracy={wanted}"])
+            except RuntimeError as failed:
+                print(f"| {name} | {wanted:.0e} | {failed} |")
                 continue
-            print(line(name, asked, error, report, seconds), flush=True)
-            for remark in report["accuracy"]["remarks"]:
-                print(f"  {name}, {asked:.0e}: {remark}")
+            reached, told = error(done.history, exact), done.report["accuracy"]
+            parts = iterations(done.report)
+            print(f"| {name} | {wanted:.0e} | {reached:.1e} | {reached / wanted:.2f} | {chosen(done.report)} | {told['pilot_runs']} | {sum(parts)} | {done.seconds:.3f} |", flush=True)
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("scenes", nargs="*", default=[*MOTIONS, *COMPARED], metavar="SCENE")
-    parser.add_argument("--scheme", help="instead of the one that automatic steps choose")
+    parser.add_argument("scenes", nargs="*", default=[*MOTIONS, *STATICS], metavar="SCENE")
+    parser.add_argument("--asked", type=float, nargs="+", default=ASKED)
+    parser.add_argument("--fixed", type=Path, help="file of the best equal steps")
+    parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--program", type=Path, help="instead of a new build")
-    asked = parser.parse_args()
-    if asked.program:
-        scenes.PROGRAM = asked.program
+    given = parser.parse_args()
+    if given.program:
+        scenes.PROGRAM = given.program
     else:
         scenes.build()
-    table(asked.scenes, asked.scheme)
+    motions([name for name in given.scenes if name in MOTIONS], given.fixed, tuple(given.asked), given.repeats)
+    statics([name for name in given.scenes if name in STATICS], tuple(given.asked))
