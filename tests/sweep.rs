@@ -116,6 +116,39 @@ fn a_sweep_is_its_runs() {
     assert_eq!((stamp(3), fs::read(folder.join("s.out/summary.csv")).unwrap()), (before, bytes));
 }
 
+/// A set in `[output] nodes` is named in the rows of its nodes, and is collected by the extreme of them: the second of two masses on springs goes
+/// twice as far.
+#[test]
+fn sets_are_collected_by_the_extreme_of_their_nodes() {
+    let folder = tempfile::tempdir().unwrap();
+    let deck = r#"
+analysis = { kind = "dynamic", end_time = 1.0, time_step = 0.01 }
+points = { near = [1.0, 0.0, 0.0], far = [2.0, 0.0, 0.0] }
+masses = [{ at = "near", mass = 1.0 }, { at = "far", mass = 1.0 }]
+links = [
+    { name = "one", from = { ground = [0.0, 0.0, 0.0] }, to = { node = "near" }, stiffness = 100.0 },
+    { name = "other", from = { ground = [0.0, 0.0, 0.0] }, to = { node = "far" }, stiffness = 100.0 },
+]
+supports = [{ at = ["near", "far"], fix = ["uy", "uz"] }]
+initial = [{ at = "near", velocity = [1.0, 0.0, 0.0] }, { at = "far", velocity = [2.0, 0.0, 0.0] }]
+sets = { both = ["near", "far"] }
+output = { nodes = "both" }
+"#;
+    let sweep = "deck = \"deck.toml\"\n[vary]\n\"links.one.stiffness\" = [100.0]\n[collect]\n\
+                 far = { at = \"far\", quantity = \"ux\", peak = \"abs\" }\nboth = { at = \"both\", quantity = \"ux\", peak = \"abs\" }\n";
+    fs::write(folder.path().join("deck.toml"), deck).unwrap();
+    fs::write(folder.path().join("s.toml"), sweep).unwrap();
+    let output = rdsolve(folder.path(), &["sweep", "s.toml"]);
+    assert!(output.status.success() && output.stderr.is_empty(), "{}", text(&output.stderr));
+    let found = rows(folder.path(), "s.out/summary.csv");
+    let value = |name: &str| found[1][found[0].iter().position(|column| column == name).unwrap()].clone();
+    assert_eq!(value("far"), value("both"));
+    let case = rows(folder.path(), "s.out/cases.csv")[1][1].clone();
+    let nodes = rows(folder.path(), &format!("s.out/{case}/nodes.csv"));
+    assert_eq!(nodes[0].last().map(String::as_str), Some("set"));
+    assert!(nodes[1..].iter().all(|row| row.last().is_some_and(|set| set == "both")));
+}
+
 /// Eight processes that fill one folder at once, three that are killed on the way, and one process alone: the same summary, to the byte.
 #[test]
 fn it_does_not_matter_who_ran_what() {

@@ -37,8 +37,8 @@ pub struct Analysis {
     /// Shortest step, above 0: a step that does not converge is halved, but not below this. Default: time_step
     /// / 2^20; with an automatic step end_time / 10^9.
     pub least_step: Maybe<f64>,
-    /// With arc-length control: the run ends where a displacement passes a value, unless `end_time` is reached before. Required with
-    /// control = "displacement", which moves this displacement.
+    /// With arc-length control: the run ends where a displacement passes a value, or at `end_time`. Required with control = "displacement":
+    /// the steps move this displacement to its value, and the run ends there alone, whatever the load factor becomes.
     pub stop: Maybe<Table<DisplacementTarget>>,
     /// With control = "displacement": the displacement of each step, above 0. Default: a hundredth of the value of `stop`.
     pub increment: Maybe<f64>,

@@ -27,7 +27,8 @@ pub struct Stage {
     pub error_tolerance: Maybe<f64>,
     /// Shortest step, above 0. Default: that of `[analysis]`, or time_step / 2^20; with an automatic step duration / 10^9.
     pub least_step: Maybe<f64>,
-    /// The stage ends where this is reached, unless `duration` is over before.
+    /// The stage ends where this is reached, or after `duration`. With control = "displacement" loads without amplitude grow beyond their
+    /// value until it is reached; without such loads the stage ends after `duration` too.
     pub stop: Maybe<Table<Stop>>,
     /// With "static": how the stage advances. Default: "time". With "arc-length" and "displacement" the time follows the load, and `stop` is
     /// by a displacement.

@@ -39,10 +39,10 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
         return Selection { output: by_default(scene, nodes, units, report), all_nodes: false };
     };
     let word = table.nodes.as_ref().filter(|nodes| nodes.single).map(|nodes| nodes.values[0].as_str());
-    let nodes = match word {
-        Some("all") => Vec::new(),
-        Some("named") => named_nodes(scene, nodes),
-        _ if table.nodes.is_none() => named_nodes(scene, nodes),
+    let (nodes, sets) = match word {
+        Some("all") => (Vec::new(), Vec::new()),
+        Some("named") => (named_nodes(scene, nodes), Vec::new()),
+        _ if table.nodes.is_none() => (named_nodes(scene, nodes), Vec::new()),
         _ => listed_nodes(scene, table, report),
     };
     let end_time = scene.analysis.duration();
@@ -59,6 +59,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
     let output = Output {
         units,
         nodes,
+        sets,
         drifts: drifts(scene, report),
         cadence,
         cadence_is_open: table.every.is_none() && table.interval.is_none(),
@@ -83,6 +84,7 @@ fn by_default<'d>(scene: &Scene<'d>, nodes: Vec<usize>, units: Option<String>, r
     Output {
         units,
         nodes,
+        sets: Vec::new(),
         drifts: drifts(scene, report),
         cadence: Cadence::Steps(1),
         cadence_is_open: true,
@@ -127,17 +129,27 @@ fn named_nodes(scene: &Scene, nodes: &[Node]) -> Vec<usize> {
     (0..nodes.len()).filter(|&node| nodes[node].named && !is_body(scene, node)).collect()
 }
 
-/// Nodes that the table lists, sorted.
-fn listed_nodes<'d>(scene: &Scene<'d>, table: &'d At<Table<words::Output>>, report: &mut Report<'d>) -> Vec<usize> {
+/// Nodes that the table lists, sorted, and the names that list them if one of these is no point.
+fn listed_nodes<'d>(
+    scene: &Scene<'d>,
+    table: &'d At<Table<words::Output>>,
+    report: &mut Report<'d>,
+) -> (Vec<usize>, Vec<String>) {
     let owner = Owner::new("`[output]`", &table.span);
     let spots = scene.spots(&owner, "nodes", &table.nodes, Reach::Parts, report);
     for spot in spots.iter().filter(|spot| spot.direct && is_body(scene, spot.node)) {
         let message = format!("`{}` is a body, and not written with the nodes", spot.name);
         report.error_with::<()>(spot.span, message, "remove it: bodies are always written to bodies.csv");
     }
-    let mut nodes: Vec<usize> = spots.iter().map(|spot| spot.node).filter(|&node| !is_body(scene, node)).collect();
-    nodes.sort_unstable();
-    nodes
+    let mut listed: Vec<_> = spots.iter().filter(|spot| !is_body(scene, spot.node)).collect();
+    listed.sort_unstable_by_key(|spot| spot.node);
+    let names = table.nodes.iter().flat_map(|list| &list.values);
+    let name_of = |span| names.clone().find(|name| std::ptr::eq(&name.span, span)).map_or("", |name| name);
+    let sets = match listed.iter().all(|spot| spot.direct) {
+        true => Vec::new(),
+        false => listed.iter().map(|spot| name_of(spot.span).to_owned()).collect(),
+    };
+    (listed.iter().map(|spot| spot.node).collect(), sets)
 }
 
 /// Reads `[[drifts]]`. One with an error is left out, so that places in the list are those of the deck only in a sound one.

@@ -1,7 +1,7 @@
 //! A column of one table over a column of another, as force over displacement.
 
 use super::disk::at;
-use super::table::STAGE;
+use super::table::names_subject;
 use super::table_reader::{TableReader, fields, number, text};
 use serde::Serialize;
 use std::io;
@@ -98,7 +98,7 @@ impl CurveAxis {
         let (time_at, place_of_value) = (place(&rows, "time")?, place(&rows, &self.column)?);
         let step_at = rows.column("step");
         let width = rows.header.len();
-        let keys: Vec<usize> = (0..width).filter(|&key| rows.is_key(key) && rows.header[key] != STAGE).collect();
+        let keys: Vec<usize> = (0..width).filter(|&key| rows.is_key(key) && names_subject(&rows.header[key])).collect();
         let (mut times, mut values, mut found) = (Vec::new(), Vec::new(), 0);
         let mut before = None;
         let sign = if self.is_negative { -1.0 } else { 1.0 };

@@ -4,7 +4,7 @@ use super::compare::Selector;
 use super::disk::at;
 use super::low_pass::{LowPass, TimeSampling};
 use super::result_json;
-use super::table::STAGE;
+use super::table::names_subject;
 use super::table_reader::{TableReader, fields, number, text};
 use super::tables::TABLES;
 use super::torn::torn_tables;
@@ -182,7 +182,8 @@ fn series(rows: &mut TableReader, takes: &dyn Fn(&str) -> bool) -> io::Result<(V
         !rows.is_key(*place) && !["step", "time"].contains(&&*rows.header[*place]) && takes(&rows.header[*place])
     };
     let places: Vec<usize> = (0..width).filter(is_number).collect();
-    let keys: Vec<usize> = (0..width).filter(|&place| rows.is_key(place) && rows.header[place] != STAGE).collect();
+    let keys: Vec<usize> =
+        (0..width).filter(|&place| rows.is_key(place) && names_subject(&rows.header[place])).collect();
     let columns: Vec<String> = places.iter().map(|&place| rows.header[place].clone()).collect();
     let mut all: Vec<Series> = Vec::new();
     let mut known: HashMap<String, usize> = HashMap::new();

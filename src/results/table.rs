@@ -13,6 +13,14 @@ pub const STAGE: &str = "stage";
 /// The name of the column behind these that tables of a deck with load cases have.
 pub const CASE: &str = "case";
 
+/// The name of the column of nodes.csv with the names of sets.
+pub const SET: &str = "set";
+
+/// True for a key column that names the subject of a row in any stage: where curves go on, and whatever asked for the row.
+pub fn names_subject(column: &str) -> bool {
+    column != STAGE && column != SET
+}
+
 /// A function that writes the rows of one frame. It is made once a run, so that it can store constants of the scene.
 pub type WriteRows = Box<dyn Fn(&mut dyn WriteRow, &Frame) -> io::Result<()>>;
 
@@ -60,8 +68,8 @@ pub struct TableKind {
     pub wanted: fn(&Model) -> bool,
     /// The quantities that the solver must compute for its rows.
     pub needs: Wanted,
-    /// True if its last column counts failures; a deck without failure omits this column.
-    pub tells_failures: bool,
+    /// Whether a deck has its last column.
+    pub has_last: fn(&Model) -> bool,
     /// True if it receives every accepted step, for rows that sum all steps since the row before.
     pub every_step: bool,
     /// The approximate number of rows and columns at one time.
@@ -95,7 +103,7 @@ impl TableKind {
 
     /// The columns that a scene has.
     pub fn columns_of(&self, model: &Model) -> impl Iterator<Item = Column> {
-        let left_out = usize::from(self.tells_failures && !model.output.failures);
+        let left_out = usize::from(!(self.has_last)(model));
         self.columns().take(self.columns().count() - left_out)
     }
 

@@ -3,7 +3,7 @@
 use super::file::{Collected, CollectedWhen};
 use results::TABLES;
 use results::curve::{REACTION, REACTIONS, reaction_direction};
-use results::table::{CASE, STAGE, TableKind};
+use results::table::{CASE, SET, STAGE, TableKind, names_subject};
 use results::table_reader::{TableReader, fields, number, text};
 use std::io;
 use std::path::Path;
@@ -78,11 +78,11 @@ fn of_table(path: &Path, wanted: &[&Collected]) -> io::Result<Vec<Option<f64>>> 
         searches.extend(rows.column(&wanted.quantity).map(|column| (place, Search { wanted, column, best: None })));
     }
     // The stage and the load case of a row are part of its time, not of its subject.
-    let says_what = |&key: &usize| rows.is_key(key) && ![STAGE, CASE].contains(&rows.header[key].as_str());
+    let says_what = |&key: &usize| rows.is_key(key) && names_subject(&rows.header[key]) && rows.header[key] != CASE;
     let keys: Vec<usize> = (0..rows.header.len()).filter(says_what).collect();
-    let stages = rows.column(STAGE);
+    let others = [STAGE, SET].map(|name| rows.column(name));
     let looked_at = searches.iter().map(|(_, search)| search.column).chain([time]).chain(keys.iter().copied());
-    let last = looked_at.chain(stages).max().unwrap_or(0);
+    let last = looked_at.chain(others.into_iter().flatten()).max().unwrap_or(0);
     // The ends of the fields of a row, as far as they are needed.
     let mut ends: Vec<(usize, usize)> = Vec::new();
     while let Some(row) = rows.next_row()? {
@@ -95,7 +95,7 @@ fn of_table(path: &Path, wanted: &[&Collected]) -> io::Result<Vec<Option<f64>>> 
         }));
         let field = |place: usize| ends.get(place).map(|&(from, to)| &row[from..to]);
         for (_, search) in &mut searches {
-            let Some(value) = field(search.column).filter(|_| search.is_about(&field, &keys, stages)) else { continue };
+            let Some(value) = field(search.column).filter(|_| search.is_about(&field, &keys, others)) else { continue };
             search.see(|| field(time).map_or(f64::NAN, number), number(value));
         }
     }
@@ -123,14 +123,22 @@ impl Search<'_> {
         }
     }
 
-    /// True for a row of the wanted subject in the wanted stage.
-    fn is_about<'r>(&self, field: &impl Fn(usize) -> Option<&'r [u8]>, keys: &[usize], stages: Option<usize>) -> bool {
+    /// True for a row of the wanted subject, or of the wanted set, in the wanted stage.
+    fn is_about<'r>(
+        &self,
+        field: &impl Fn(usize) -> Option<&'r [u8]>,
+        keys: &[usize],
+        [stages, sets]: [Option<usize>; 2],
+    ) -> bool {
         let says = |place: usize, name: &str| field(place).is_some_and(|found| text(found) == name);
         let in_stage = match &self.wanted.stage {
             Some(stage) => stages.is_some_and(|place| says(place, stage)),
             None => true,
         };
-        in_stage && (keys.is_empty() || says(keys[0], &self.wanted.at) || keys.len() > 1 && self.is_all(field, keys))
+        let in_set = sets.is_some_and(|place| says(place, &self.wanted.at));
+        let is_subject =
+            in_set || keys.is_empty() || says(keys[0], &self.wanted.at) || keys.len() > 1 && self.is_all(field, keys);
+        in_stage && is_subject
     }
 
     /// True if all keys of a row, separated by spaces, are the wanted subject.

@@ -116,6 +116,9 @@ fn sets_and_names() {
     assert_eq!(labels("\"tip\""), ["mesh.9", "mesh.18", "mesh.27", "mesh.36"]);
     assert_eq!(labels("[\"mesh.5\", \"corner\"]"), ["mesh.5", "mesh.36"]);
     assert_eq!(labels("\"all\"").len(), 36);
+    assert_eq!(with("\"tip\"").output.sets, ["tip"; 4]);
+    assert_eq!(with("[\"mesh.5\", \"corner\"]").output.sets, ["mesh.5", "corner"]);
+    assert!(with("[\"mesh.5\", \"mesh.9\"]").output.sets.is_empty() && with("\"all\"").output.sets.is_empty());
     // Values and links at a set of one node.
     let more = r#"
 [sets]

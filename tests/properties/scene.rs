@@ -84,6 +84,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
         output: Output {
             units: None,
             nodes: vec![],
+            sets: Vec::new(),
             drifts: vec![],
             cadence: Cadence::Steps(1),
             cadence_is_open: false,

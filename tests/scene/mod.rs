@@ -142,6 +142,7 @@ pub fn model() -> Model {
         output: Output {
             units: None,
             nodes: vec![2, 0],
+            sets: Vec::new(),
             drifts: vec![],
             cadence: Cadence::Steps(1),
             cadence_is_open: false,

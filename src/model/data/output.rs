@@ -10,6 +10,8 @@ pub struct Output {
     pub units: Option<String>,
     /// Nodes whose histories go to nodes.csv, in deck order (bodies are not among them).
     pub nodes: Vec<usize>,
+    /// For each of them the name under which `[output] nodes` lists it; empty if it lists points alone, or all.
+    pub sets: Vec<String>,
     /// The relative displacements in drifts.csv, in deck order.
     pub drifts: Vec<Drift>,
     /// The times of the histories.

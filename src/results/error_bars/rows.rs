@@ -1,14 +1,14 @@
 //! The rows of one table at one time, as numbers.
 
-use crate::table::{TableKind, WriteRow};
-use base::quantities::Unit;
+use crate::table::{TableKind, WriteRow, names_subject};
+use base::quantities::Column;
 use model::Model;
 use std::io;
 
 /// Collects the rows of one frame. Its memory is kept from frame to frame.
 pub struct CollectedRows {
-    /// True for a key column, which names the subject of a row; for all columns after `step` and `time`.
-    is_key: Vec<bool>,
+    /// All columns after `step` and `time`.
+    columns: Vec<Column>,
     /// True where rows are about elements: other meshes have others.
     by_element: bool,
     /// The field that comes next, counted behind `step` and `time`.
@@ -24,9 +24,9 @@ pub struct CollectedRows {
 impl CollectedRows {
     /// No rows of this table of a scene.
     pub fn new(kind: &TableKind, model: &Model) -> CollectedRows {
-        let is_key = kind.columns_of(model).skip(2).map(|column| column.unit == Unit::Label).collect();
+        let columns = kind.columns_of(model).skip(2).collect();
         let by_element = kind.columns().any(|column| column.name == "element");
-        CollectedRows { is_key, by_element, field: 0, numbers: Vec::new(), keys: String::new(), ends: Vec::new() }
+        CollectedRows { columns, by_element, field: 0, numbers: Vec::new(), keys: String::new(), ends: Vec::new() }
     }
 
     /// Forgets all rows.
@@ -43,7 +43,7 @@ impl CollectedRows {
 
     /// The number of columns with numbers.
     pub fn width(&self) -> usize {
-        self.is_key.iter().filter(|is_key| !**is_key).count()
+        self.columns.iter().filter(|column| !column.is_key()).count()
     }
 
     /// The subject of a row: its keys, separated by spaces.
@@ -71,8 +71,10 @@ impl CollectedRows {
     }
 
     fn add_key(&mut self, text: &str) {
-        self.keys.push_str(text);
-        self.keys.push(' ');
+        if self.columns.get(self.field).is_some_and(|column| names_subject(column.name)) {
+            self.keys.push_str(text);
+            self.keys.push(' ');
+        }
         self.field += 1;
     }
 
@@ -82,7 +84,7 @@ impl CollectedRows {
     }
 
     fn is_at_key(&self) -> bool {
-        self.is_key.get(self.field).copied().unwrap_or(false)
+        self.columns.get(self.field).is_some_and(Column::is_key)
     }
 }
 

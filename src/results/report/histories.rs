@@ -3,7 +3,7 @@
 
 use super::numbers::PageNumbers;
 use super::result::Result;
-use crate::table::{CASE, STAGE};
+use crate::table::{CASE, STAGE, names_subject};
 use crate::table_reader::{TableReader, fields, number, text};
 use crate::tables;
 use base::quantities::{Column, UnitSystem};
@@ -55,7 +55,7 @@ impl Places {
         let step = rows.column("step").filter(|_| rows.column(CASE).is_none());
         let when = [step, if over == "time" { time } else { rows.column(over) }];
         // Curves go on from stage to stage.
-        let all = (0..rows.header.len()).filter(|&place| rows.header[place] != STAGE);
+        let all = (0..rows.header.len()).filter(|&place| names_subject(&rows.header[place]));
         let keys = all.clone().filter(|place| is(place, true)).collect();
         let is_value = |place: &usize| is(place, false) && Some(*place) != when[1] && Some(*place) != time;
         Places { when, keys, values: all.filter(is_value).collect() }

@@ -17,7 +17,7 @@ pub static TABLE: TableKind = TableKind {
     ]],
     wanted: |model| model.output.sections.is_some() && model.has(PartKind::Bar),
     needs: Wanted::BARS,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: false,
     extent: |extent| {
         let bars = || extent.model.each::<Bar>();

@@ -24,7 +24,7 @@ pub static TABLE: TableKind = TableKind {
     ],
     wanted: |model| !model.bodies.is_empty(),
     needs: Wanted::NOTHING,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: false,
     extent: |extent| {
         let bodies = &extent.model.bodies;

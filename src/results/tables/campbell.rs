@@ -14,7 +14,7 @@ pub static TABLE: TableKind = TableKind {
     columns: &[&[CAMPBELL_SPEED], &[Column::key("mode", "number of the mode at this speed, from 1")], &CAMPBELL],
     wanted: |model| !model.analysis.speeds().is_empty(),
     needs: Wanted::MODES,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: false,
     extent: |_| Rows { rows: 0, letters: 0, numbers: 0 },
     rows: |_| Box::new(write),

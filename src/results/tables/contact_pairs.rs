@@ -31,7 +31,7 @@ pub static TABLE: TableKind = TableKind {
         model.output.contacts.is_some_and(|rows| rows != ContactRows::Contacts) && model.has(PartKind::Contact)
     },
     needs: Wanted::CONTACT_TOUCHES,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: false,
     extent: |extent| {
         // Nothing touches most of the time.

@@ -16,7 +16,7 @@ pub static TABLE: TableKind = TableKind {
         model.output.contacts.is_some_and(|rows| rows != ContactRows::Pairs) && model.has(PartKind::Contact)
     },
     needs: Wanted::CONTACTS,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: false,
     extent: |extent| {
         let contacts = || extent.model.each::<Contact>();

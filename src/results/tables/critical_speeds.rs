@@ -16,7 +16,7 @@ pub static TABLE: TableKind = TableKind {
     columns: &[&[Column::key("critical", "number of the critical speed, from 1")], &CRITICAL_SPEED],
     wanted: |model| !model.analysis.speeds().is_empty(),
     needs: Wanted::MODES,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: false,
     extent: |_| Rows { rows: 0, letters: 0, numbers: 0 },
     rows: |_| Box::new(write),

@@ -14,7 +14,7 @@ pub static TABLE: TableKind = TableKind {
     columns: &[&[Column::key("drift", "name of the drift")], &DRIFT],
     wanted: |model| !model.output.drifts.is_empty(),
     needs: Wanted::NOTHING,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: false,
     extent: |extent| {
         let drifts = &extent.model.output.drifts;

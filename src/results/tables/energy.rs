@@ -15,7 +15,7 @@ pub static TABLE: TableKind = TableKind {
     columns: &[&ENERGY],
     wanted: |model| model.output.energy,
     needs: Wanted::ENERGY,
-    tells_failures: true,
+    has_last: |model| model.output.failures,
     every_step: false,
     extent: |extent| {
         let model = extent.model;

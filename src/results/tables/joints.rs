@@ -16,7 +16,7 @@ pub static TABLE: TableKind = TableKind {
     columns: &[&[Column::key("joint", "name of the joint")], &JOINT_COORDINATE, &JOINT_REACTION],
     wanted: |model| model.output.joints && of_deck(model).next().is_some(),
     needs: NEEDS,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: false,
     extent: |extent| {
         let [force, moment] = extent.components();

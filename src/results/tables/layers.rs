@@ -29,7 +29,7 @@ pub static TABLE: TableKind = TableKind {
     ]],
     wanted: |model| model.output.layers && model.has_surfaces(),
     needs: Wanted::SHELLS,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: false,
     extent: |extent| {
         let shells = || extent.model.each::<Shell>();

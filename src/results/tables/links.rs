@@ -13,7 +13,7 @@ pub static TABLE: TableKind = TableKind {
     columns: &[&[Column::key("link", "name of the link")], &LINK],
     wanted: |model| model.output.links && of_deck(model).next().is_some(),
     needs: Wanted::LINKS,
-    tells_failures: true,
+    has_last: |model| model.output.failures,
     every_step: false,
     extent: |extent| {
         // Elongation, rate and force, and the force as a vector; few resist moments.

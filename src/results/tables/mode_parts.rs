@@ -19,7 +19,7 @@ pub static TABLE: TableKind = TableKind {
     ]],
     wanted: |model| model.analysis.lists_modes() && !model.parts.is_empty(),
     needs: Wanted::MODES,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: false,
     extent: |_| Rows { rows: 0, letters: 0, numbers: 0 },
     rows: |_| Box::new(write),

@@ -14,7 +14,7 @@ pub static TABLE: TableKind = TableKind {
     columns: &[&[Column::key("mode", "number of the mode, from 1")], &MODE],
     wanted: |model| model.analysis.lists_modes(),
     needs: Wanted::MODES,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: false,
     extent: |_| Rows { rows: 0, letters: 0, numbers: 0 },
     rows: |_| Box::new(write),

@@ -1,7 +1,7 @@
 //! nodes.csv: the motion of the chosen nodes, global components.
 
 use crate::extent::Rows;
-use crate::table::{Answers, TableKind, WriteRow};
+use crate::table::{Answers, SET, TableKind, WriteRow};
 use base::math::{Vec6, angular, linear, rotation};
 use base::quantities::{
     ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_VELOCITY, Column, DISPLACEMENT, MOTION, POSITION, ROTATION, VELOCITY,
@@ -24,17 +24,22 @@ pub static TABLE: TableKind = TableKind {
         &ANGULAR_VELOCITY,
         &ACCELERATION,
         &ANGULAR_ACCELERATION,
+        &[Column::key(
+            SET,
+            "the first name in `[output] nodes` that covers the node; only where one is a set, a group or a part",
+        )],
     ],
     wanted: |model| !model.output.nodes.is_empty(),
     needs: Wanted::NOTHING,
-    tells_failures: false,
+    has_last: |model| !model.output.sets.is_empty(),
     every_step: false,
     extent: |extent| {
         let (model, nodes) = (extent.model, &extent.model.output.nodes);
         // Without motion, positions keep their values at t = 0.
         let positions = |node: usize| extent.moving(node)[..3].iter().filter(|moves| **moves).count();
         let numbers = nodes.iter().map(|&node| positions(node) + extent.motion(node, [1, 2])).sum();
-        Rows::named(nodes.iter().map(|&node| model.nodes[node].label.as_str()), numbers)
+        let rows = Rows::named(nodes.iter().map(|&node| model.nodes[node].label.as_str()), numbers);
+        Rows { letters: rows.letters + model.output.sets.iter().map(String::len).sum::<usize>(), ..rows }
     },
     rows: |_| Box::new(write),
     answers: Some(Answers { quantities, needs: Wanted::NOTHING, value }),
@@ -70,9 +75,12 @@ fn values(start: &model::Node, now: &state::Node, small: Option<&Vec6>) -> [f64;
 }
 
 fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
-    frame.model.output.nodes.iter().try_for_each(|&i| {
+    let output = &frame.model.output;
+    output.nodes.iter().enumerate().try_for_each(|(k, &i)| {
         let node = &frame.model.nodes[i];
         table.row(frame.step, frame.state.time).text(&node.label);
-        table.numbers(&values(node, &frame.state.nodes[i], motion(frame, i))).end()
+        table.numbers(&values(node, &frame.state.nodes[i], motion(frame, i)));
+        output.sets.get(k).into_iter().for_each(|set| _ = table.text(set));
+        table.end()
     })
 }

@@ -18,7 +18,7 @@ pub static TABLE: TableKind = TableKind {
     ]],
     wanted: |model| model.output.parts,
     needs: Wanted::PARTS,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: false,
     extent: |extent| {
         let parts = || extent.model.parts.iter().filter(|part| part.kind().is_deformable());

@@ -25,7 +25,7 @@ pub static TABLE: TableKind = TableKind {
     ]],
     wanted: |model| model.output.reactions,
     needs: Wanted::REACTIONS,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: false,
     extent: |extent| {
         let model = extent.model;

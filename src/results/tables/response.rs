@@ -16,7 +16,7 @@ pub static TABLE: TableKind = TableKind {
     columns: &[&[RESPONSE_FREQUENCY], &[Column::key("node", "name of the node or body")], &RESPONSE],
     wanted: |model| model.analysis.response().is_some() && !(model.output.nodes.is_empty() && model.bodies.is_empty()),
     needs: Wanted::MODES,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: false,
     extent: |_| Rows { rows: 0, letters: 0, numbers: 0 },
     rows: |_| Box::new(write),

@@ -33,7 +33,7 @@ pub static TABLE: TableKind = TableKind {
     ],
     wanted: |model| model.output.sections.is_some() && model.has(PartKind::Beam),
     needs: Wanted::SECTIONS,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: false,
     extent: |extent| {
         let beams = || extent.model.each::<Beam>();

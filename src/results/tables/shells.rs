@@ -22,7 +22,7 @@ pub static TABLE: TableKind = TableKind {
     ],
     wanted: |model| model.output.sections.is_some() && model.has(PartKind::Shell),
     needs: Wanted::SHELLS,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: false,
     extent: |extent| {
         let shells = || extent.model.each::<Shell>();

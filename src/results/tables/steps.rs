@@ -24,7 +24,7 @@ pub static TABLE: TableKind = TableKind {
     ]],
     wanted: |_| true,
     needs: Wanted::NOTHING,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: true,
     // Length and residual; the rest are counts, like zeros in length.
     extent: |_| Rows { rows: 1, letters: 0, numbers: 2 },

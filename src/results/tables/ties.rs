@@ -16,7 +16,7 @@ pub static TABLE: TableKind = TableKind {
     columns: &[&[Column::key("tie", "name of the tie")], &TIE],
     wanted: |model| model.output.reactions && model.constraints.tied().next().is_some(),
     needs: Wanted::REACTIONS,
-    tells_failures: false,
+    has_last: |_| true,
     every_step: false,
     extent: |extent| {
         let constraints = &extent.model.constraints;
