@@ -171,3 +171,64 @@ fn a_ball_bounces_off_a_line_in_which_three_sheets_meet() {
         }
     }
 }
+
+/// A rope draws a point under 1000 N over faces that rise and fall by 0.002 in turn: it pulls with 1000 (μ ± 0.002) N. Without friction the force
+/// jumps where the point crosses a fold, and no load step is shortened there.
+#[test]
+fn a_point_drawn_over_shallow_folds_needs_no_shorter_steps() {
+    let height = |k: usize| if k % 2 == 0 { 0.0 } else { -2e-5 };
+    let nodes: Vec<[f64; 3]> = (0..9).flat_map(|k| [-0.01, 0.01].map(|y| [0.01 * k as f64, y, height(k)])).collect();
+    let faces: Vec<[usize; 4]> = (0..8).map(|k| [2 * k + 1, 2 * k + 3, 2 * k + 4, 2 * k + 2]).collect();
+    let deck = r#"
+        analysis = { kind = "static", end_time = 2.0, time_step = 0.02 }
+        mesh = { file = "MESH" }
+        materials.steel = { model = "elastic", youngs_modulus = 210e9, poisson_ratio = 0.3, density = 7850.0 }
+        points = { p = [0.0051, 0.0, 0.004985], q = [0.0251, 0.0, 0.004985] }
+        shells = [{ group = "sheet", thickness = 0.002, material = "steel" }]
+        masses = [{ at = "p", mass = 1.0 }]
+        links = [{ name = "rope", from = { node = "p" }, to = { node = "q" }, stiffness = 1e6 }]
+        loads = [{ at = "p", force = [0.0, 0.0, -1000.0], amplitude = "press" }]
+        [[supports]]
+        at = "sheet"
+        fix = "all"
+        [[supports]]
+        at = "p"
+        fix = ["uy", "rotations"]
+        [[supports]]
+        at = "q"
+        fix = ["uy", "uz"]
+        motion = { ux = { amplitude = "pull", scale = 0.05 } }
+        [amplitudes]
+        pull = { kind = "ramp", start = 1.0, end = 2.0 }
+        press = { kind = "ramp", start = 0.0, end = 1.0 }
+        [[contacts]]
+        name = "strip"
+        surface = { part = "sheet" }
+        with = "p"
+        radius = 0.004
+        stiffness = 1e8
+        friction = FRICTION
+        "#;
+    for friction in [0.0, 0.2] {
+        let deck = deck.replace("FRICTION", &format!("{friction:?}"));
+        let done = go_with(&mesh(&nodes, &faces, &[]), &deck, &mut |frame: &Frame| {
+            let x = |label: &str| {
+                let node = frame.model.nodes.iter().position(|node| node.label == label).expect("a point");
+                frame.state.nodes[node].x
+            };
+            vec![frame.state.time, 1e6 * ((x("q") - x("p")).norm() - 0.02)]
+        });
+        assert!(matches!(done.outcome, Outcome::Done), "{:?}", done.outcome);
+        // The point slips from a tenth of the way on; on a slope the force follows (μ ± θ)/(1 ∓ μθ).
+        for row in done.rows.iter().filter(|row| row[0] > 1.1) {
+            let off = [-2e-3, 2e-3].map(|slope| {
+                let force = 1000.0 * (friction + slope) / (1.0 - friction * slope);
+                (row[1] - force).abs() / force.abs()
+            });
+            assert!(off[0].min(off[1]) < 1e-3, "{row:?}");
+        }
+        if friction == 0.0 {
+            assert_eq!(done.rows.iter().filter(|row| row[0] > 1.0 + 1e-9).count(), 50, "no step is shortened");
+        }
+    }
+}

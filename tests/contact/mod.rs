@@ -27,6 +27,7 @@ mod rubbing;
 mod sheet_edges;
 mod sight;
 mod sliding_far;
+mod slipping_plates;
 mod stages;
 mod stiffness;
 mod touch;

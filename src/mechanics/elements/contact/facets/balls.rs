@@ -44,6 +44,7 @@ pub(super) fn find_within(
             facing: Facing::Normal,
             counts: true,
             inset: 0.0,
+            goes_on: false,
             slot: None,
             share: None,
             from: None,

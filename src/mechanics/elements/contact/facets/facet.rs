@@ -168,6 +168,17 @@ impl Facet {
         best.map_or(FacetPoint { triangle: 0, N: [1.0, 0.0, 0.0], region: Region::Vertex(0), g: -p[0] }, |best| best.1)
     }
 
+    /// The foot of the perpendicular from the origin on the plane of a triangle, within it or beyond its rim; `p` are the places of the corners.
+    pub(super) fn foot(&self, p: &[Vec3; MOST_CORNERS]) -> FacetPoint {
+        let triangle = self.piece.unwrap_or(0);
+        let [a, b, c] = self.triangle(triangle, p);
+        let (u, v) = (b - a, c - a);
+        let n = u.cross(&v);
+        let square = n.norm_squared().max(f64::MIN_POSITIVE);
+        let (s, t) = (-a.dot(&v.cross(&n)) / square, -a.dot(&n.cross(&u)) / square);
+        FacetPoint { triangle, N: [1.0 - s - t, s, t], region: Region::Interior, g: n * (-a.dot(&n) / square) }
+    }
+
     /// The share of each node in a point of the facet.
     #[inline]
     pub(super) fn weights(&self, at: &FacetPoint) -> [f64; MOST_CORNERS] {

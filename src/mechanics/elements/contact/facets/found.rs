@@ -22,6 +22,8 @@ pub(super) struct FacetTouch {
     pub counts: bool,
     /// Depth without force: the depth of the point in the facet on arrival along the surface, from facets that it cannot touch.
     pub inset: f64,
+    /// True where the plane of the facet goes on beyond its rim, to a neighbour in nearly the same plane.
+    pub goes_on: bool,
     /// The slot of its memory.
     pub slot: Option<usize>,
     /// For a touching line, the share of its second end in its nearest point.

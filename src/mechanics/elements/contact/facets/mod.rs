@@ -4,7 +4,8 @@
 //! touch for d below the reach. The force has the potential ½ k δ², δ = reach − d, with d from the nearest point of the deformed surface,
 //! and is thus conservative. It acts on the point and, by the shares of the nearest point, on the nodes of the facet; linear and angular
 //! momentum are conserved to rounding. Facets of one plane are one plane: nothing that slides over them feels their edges. A point that has
-//! come through to the other side is still pushed back to its own.
+//! come through to the other side is still pushed back to its own. In a load step a point that crosses a shallow fold stays on the plane of its
+//! facet until the end of the step, so that the iteration meets no kink.
 //!
 //! Two lines touch between their nearest points, anywhere along both. Edges of solids touch only where they cross, because their corners
 //! are separate points.

@@ -29,6 +29,8 @@ pub(super) struct FacetPair<'a> {
     pub kept: &'a Facet,
     /// For a line, the nodes of the line with the memory: the neighbour, if the contact has passed on from it.
     pub kept_line: [usize; 2],
+    /// True where the plane of the facet goes on beyond its rim.
+    pub goes_on: bool,
     /// True where the friction spring sticks at any force.
     pub sticks: bool,
 }
@@ -145,7 +147,7 @@ impl<'a> FacetPair<'a> {
         let origin = &nodes[self.point.nodes[0]];
         let x = self.point.relative_position(origin, nodes);
         let p = self.facet.seen_from(&x, origin, nodes);
-        let at = self.facet.closest(&p);
+        let at = if self.goes_on { self.facet.foot(&p) } else { self.facet.closest(&p) };
         let W = self.facet.weights(&at);
         let distance = at.g.norm();
         let normal = self.facet.normal(at.triangle, &p);

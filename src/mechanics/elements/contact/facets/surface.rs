@@ -56,6 +56,7 @@ impl FacetContacts {
         let ends = &self.points[place.map_or(e, |(e, _)| e)].nodes;
         FacetPair {
             facing: touch.facing,
+            goes_on: touch.goes_on,
             memory,
             inset: memory.map_or(touch.inset, |memory| memory.inset(&self.law)),
             kept: &self.facets[memory.map_or(touch.facet, PairMemory::facet)],
@@ -83,6 +84,7 @@ impl FacetContacts {
             inset: 0.0,
             kept: facet,
             kept_line: [ends[0], ends[1]],
+            goes_on: false,
             sticks: false,
         }
     }

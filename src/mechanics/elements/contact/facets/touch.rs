@@ -16,6 +16,8 @@ use base::math::Vec3;
 const ONE_DIRECTION: f64 = 0.7;
 /// Least cosine between the normals of neighbouring facets for a point to carry its memory from one to the other.
 const NEIGHBOURS: f64 = 0.5;
+/// The least depth of a remembered facet, as a part of that of the deepest, with which it stays.
+const AS_DEEP: f64 = 0.5;
 
 /// Finds the facets near a point, the nearest first. `history` is that of the point.
 pub(super) fn find(
@@ -29,6 +31,9 @@ pub(super) fn find(
     find_within(of, near, query, nodes, found);
     let stand_alone = of.is_of_balls || of.is_of_lines;
     if !stand_alone {
+        if query.stays && !of.law.dynamic {
+            go_on_in_plane(of, query.e, nodes, history, found);
+        }
         if of.is_inner {
             mark_slides(&of.facets, found);
         }
@@ -132,6 +137,7 @@ pub(super) fn find_within(
             facing: Facing::Normal,
             counts,
             inset: 0.0,
+            goes_on: false,
             slot: None,
             share,
             from: None,
@@ -139,21 +145,57 @@ pub(super) fn find_within(
     }
 }
 
+/// True for a facet that a point remembers.
+fn is_known(of: &FacetScene, history: &[f64], facet: usize) -> bool {
+    let memories = (0..of.slots).map(|slot| of.memory(history, slot));
+    memories.filter(|memory| memory.is_known()).any(|memory| memory.facet() == facet)
+}
+
+/// Lets the plane of a remembered facet go on beyond its rim until the end of a load step, if a neighbour in nearly the same plane is as
+/// near. The force of a point that slides over a shallow fold has no kink within the step, so the iteration converges. At the end of the step
+/// the contact energy jumps by force times angle times the way past the rim; in dynamics the facet changes at once.
+fn go_on_in_plane(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], found: &mut [FacetTouch]) {
+    /// Least cosine between the normals of both.
+    const ONE_PLANE: f64 = 0.99;
+    /// The same distance up to rounding, relative to the reach.
+    const AS_NEAR: f64 = 1e-9;
+    let (x, origin) = seen(of, e, nodes);
+    let deepest = found.iter().filter(|touch| touch.counts).map(|touch| touch.gap).fold(0.0, f64::min);
+    for k in 0..found.len() {
+        let touch = found[k];
+        let [Some(a), b] = touch.rim else { continue };
+        let facet = &of.facets[touch.facet];
+        let reach = facet.half + of.points[e].radius;
+        let takes_over = |other: &FacetTouch| {
+            let has = |corner: usize| of.facets[other.facet].names.contains(&corner);
+            other.facet != touch.facet
+                && other.counts
+                && (has(a) && b.is_none_or(has))
+                && other.normal.dot(&touch.normal) > ONE_PLANE
+                && other.gap <= touch.gap + AS_NEAR * reach
+        };
+        if !(touch.counts && is_known(of, history, touch.facet) && found.iter().any(takes_over)) {
+            continue;
+        }
+        let p = facet.seen_from(&x, origin, nodes);
+        let foot = facet.foot(&p);
+        let gap = foot.g.norm() - reach;
+        if !facet.is_free(&facet.closest(&p)) && gap < AS_DEEP * deepest && AS_DEEP * gap > deepest {
+            let toward = foot.g.try_normalize(AS_NEAR * reach).unwrap_or(touch.normal);
+            found[k] = FacetTouch { gap, toward, rim: [None; 2], goes_on: true, ..touch };
+        }
+    }
+}
+
 /// Puts remembered facets before the others, if they count and are at least half as deep as the deepest in their direction.
 fn prefer_known(of: &FacetScene, history: &[f64], found: &mut [FacetTouch]) {
-    /// The least part of the depth of the deepest.
-    const AS_DEEP: f64 = 0.5;
     let mut first = 0;
     for k in 0..found.len() {
         let touch = found[k];
-        let is_known = |slot: usize| {
-            let memory = of.memory(history, slot);
-            memory.is_known() && memory.facet() == touch.facet
-        };
         let is_deepest = |other: &FacetTouch| {
             !other.counts || other.toward.dot(&touch.toward) < ONE_DIRECTION || touch.gap < AS_DEEP * other.gap
         };
-        if touch.counts && touch.gap < 0.0 && (0..of.slots).any(is_known) && found.iter().all(is_deepest) {
+        if touch.counts && touch.gap < 0.0 && is_known(of, history, touch.facet) && found.iter().all(is_deepest) {
             found[first..=k].rotate_right(1);
             first += 1;
         }
