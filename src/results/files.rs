@@ -10,7 +10,7 @@ use super::table::{TableKind, WriteRows};
 use super::table_file::{EmptyFields, TableFile, TableMark};
 use super::table_size::size_in_words;
 use super::tables::{TABLES, holds_response};
-use base::names::instant;
+use base::names::{instant, short};
 use base::snapshot::keep;
 use model::{Cadence, FieldFormat, Model, When};
 use solve::plan::Plan;
@@ -279,7 +279,7 @@ fn in_words(cadence: Cadence) -> String {
         Cadence::Steps(0 | 1) => "every step".to_owned(),
         Cadence::Steps(every) => format!("every {every} steps"),
         Cadence::Interval(interval) => format!("every {interval} of time"),
-        Cadence::Apart(apart) => format!("at steps {apart} of time or more apart"),
+        Cadence::Apart(apart) => format!("at steps {} of time or more apart", short(apart)),
     }
 }
 

@@ -1045,3 +1045,12 @@ pub mod reduction {
     /// Unknowns of an interface that are few, even if they are more than the unknowns inside.
     pub const FEW: usize = 300;
 }
+
+pub mod weak_axis {
+    /// Largest torsional stiffness of an open section, over its lesser bending stiffness; of an I it is 0.03, of a flat bar 1.5.
+    pub const OPEN: f64 = 0.2;
+    /// Least ratio of both bending stiffnesses of a section that is meant to stand.
+    pub const STRONG: f64 = 3.0;
+    /// Largest sine of the slope of a horizontal beam.
+    pub const LEVEL: f64 = 0.1;
+}

@@ -103,6 +103,27 @@ fn mass_loads_and_the_ground_are_those_of_a_hand_calculation() {
     assert!(!told.contains("first mode"), "{told}");
 }
 
+/// A girder whose web lies flat under gravity is named with the orientation in which it stands; one that stands, and a flat bar, are not.
+#[test]
+fn girders_on_their_weak_axis_are_named() {
+    let deck = |section: &str, orientation: &str| {
+        format!(
+            "units = \"SI\"\n[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = 1.0\n[points]\na = [0.0, 0.0, 0.0]\nb = [3.0, 0.0, 0.0]\n\
+             [materials.steel]\nmodel = \"elastic\"\nE = 210e9\nnu = 0.3\nrho = 7850.0\n[sections.s]\n{section}\n\
+             [[beams]]\nname = \"girder\"\npath = [\"a\", \"b\"]\nelements = 4\nmaterial = \"steel\"\nsection = \"s\"\n\
+             orientation = {orientation}\n[[supports]]\nat = \"a\"\nfix = \"all\"\n[environment]\ngravity = [0.0, 0.0, -9.81]\n"
+        )
+    };
+    let (girder, bar) = ("profile = \"IPE 200\"", "shape = \"rectangle\"\nwidth = 0.2\nheight = 0.02");
+    let flat = check(&deck(girder, "[0.0, 0.0, 1.0]"), &[]);
+    assert!(line(&flat, "weak axis").contains("`girder`"), "{flat}");
+    assert!(line(&flat, "weak axis").contains("give `orientation` = [0, 1, 0]"), "{flat}");
+    for (section, orientation) in [(girder, "[0.0, 1.0, 0.0]"), (bar, "[0.0, 1.0, 0.0]"), (bar, "[0.0, 0.0, 1.0]")] {
+        let told = check(&deck(section, orientation), &[]);
+        assert!(!told.contains("weak axis"), "{told}");
+    }
+}
+
 /// Consistent masses have the same sum and center, and loads on faces are pressure times area.
 #[test]
 fn consistent_masses_and_pressures_count() {

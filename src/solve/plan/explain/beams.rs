@@ -3,9 +3,11 @@
 use super::explanation::Explanation;
 use crate::system::System;
 use crate::system::parts::beams::merges_fibres;
+use crate::tolerances::weak_axis::{LEVEL, OPEN, STRONG};
 use base::names::short;
 use mechanics::elements::beam::IntegrationRule;
 use model::{Beam, BeamElement, Model};
+use nalgebra::Vector2;
 
 /// One beam, and several.
 const BEAMS: [&str; 2] = ["beam", "beams"];
@@ -24,6 +26,13 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
             let graded = format!("elements {} to {} long, the shortest at the ends", short(shortest), short(longest));
             text.add_of("grading", BEAMS, &beam.name, graded);
         }
+        if let Some(orientation) = upright(beam, model) {
+            let [x, y, z] = orientation.map(short);
+            let flat = format!(
+                "gravity bends its open section about the weak axis. If the web should stand upright, give `orientation` = [{x}, {y}, {z}]"
+            );
+            text.add_of("weak axis", BEAMS, &beam.name, flat);
+        }
         let Some(yielding) = &beam.yielding else { continue };
         let (fibres, points) = (yielding.fibres(), yielding.points);
         let rule = if yielding.rule == IntegrationRule::Gauss { "Gauss" } else { "Lobatto" };
@@ -41,4 +50,26 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
             format!("{fibres} fibres{of} at {points} {rule} points per element, yielding under {stress}{merged}");
         text.add_of("yielding", BEAMS, &beam.name, section);
     }
+}
+
+/// The orientation that turns the strong axis of a horizontal beam against gravity, where its weak one is there and its section is open: flat bars
+/// lie flat on purpose.
+fn upright(beam: &Beam, model: &Model) -> Option<[f64; 3]> {
+    let down = model.loading.gravity.try_normalize(0.0)?;
+    let lies_flat = |element: &BeamElement| {
+        let (M, along) = (&model.stiffnesses[element.section].M, element.frame.column(0));
+        let bending = M.fixed_view::<2, 2>(1, 1).into_owned();
+        let stiffnesses = bending.symmetric_eigenvalues();
+        let (least, most) = (stiffnesses.min(), stiffnesses.max());
+        let level = along.cross(&down);
+        let about = Vector2::new(element.frame.column(1).dot(&level), element.frame.column(2).dot(&level));
+        along.dot(&down).abs() < LEVEL
+            && M[(0, 0)] < OPEN * least
+            && most > STRONG * least
+            && about.dot(&(bending * about)) < 2.0 * least
+    };
+    let first = beam.elements.first().filter(|_| beam.elements.iter().all(lies_flat))?;
+    // The web of I, channel and angle lies along local z.
+    let level = first.frame.column(0).cross(&down);
+    Some(std::array::from_fn(|i| if level[i].abs() < 1e-9 { 0.0 } else { level[i] }))
 }
