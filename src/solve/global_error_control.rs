@@ -155,7 +155,9 @@ impl Run<'_> {
         let mut trace = Trace::new(observer, model.solution.scheme.order() + 1, control.between).looking_ahead(ahead);
         let (outcome, state) = self.once(&mut trace, &schedule, control);
         let predicted = trace.predicted();
-        control.error.tolerance = trace.mean_tolerance().unwrap_or(control.error.tolerance);
+        if let Some([mean, least]) = trace.tolerances() {
+            (control.error.tolerance, control.error.least) = (mean, least);
+        }
         let run = trace.into_kept().with_events(self.recorder.events.met());
         self.pilot = pilot;
         if let Some(begun) = self.begin_instead((&outcome, predicted, &run), control, observer) {

@@ -57,6 +57,7 @@ pub mod inner {
     pub use crate::control::COMPARISONS;
     pub use crate::explicit::CentralDifferenceStepper;
     pub use crate::friction_warnings::{ContactThrows, SlipBegins};
+    pub use crate::global_error::LookAhead;
     pub use crate::no_convergence::NoConvergence;
     pub use crate::start::start;
     pub use crate::step::load_steps::{LoadSteps, Peak};

@@ -526,7 +526,7 @@ pub mod global_error {
     /// Least and largest ratio of the tolerances of two runs in a row. Estimates from far apart are too large. With a least ratio of 0.01 runs
     /// erred by a tenth of the request, and took two to three times the iterations.
     pub const CHANGE: [f64; 2] = [0.25, 0.5];
-    /// The same after a run that has ended early. What is too strict, later parts of the next run make up for.
+    /// The same after a run that has ended early. What is too strict, later parts of the next run make up for. Chosen, not measured.
     pub const CHANGE_EARLY: [f64; 2] = [0.03, 0.5];
     /// Least and largest ratio for runs with events.
     pub const CHANGE_WITH_EVENTS: [f64; 2] = [0.01, 0.5];
@@ -570,14 +570,16 @@ pub mod look_ahead {
     pub const JUDGED_AT: usize = 6;
     /// Predicted error, as a multiple of the error asked for, that ends a run early. Predictions err by a factor of two.
     pub const FUTILE: f64 = 2.0;
-    /// The same before [`JUDGED_AT`].
+    /// The same before [`JUDGED_AT`]. Chosen, not measured.
     pub const FUTILE_EARLY: f64 = 6.0;
-    /// Number of the last time when a prediction may end the run: later the rest costs less than another run.
+    /// Number of the last time when a prediction may end the run, half of all: later the rest costs less than another run. Chosen, not measured.
     pub const LAST_JUDGED: usize = 8;
     /// The part of the error asked for that the rest of a run aims at after its tolerance has fallen. Estimates are too high more often than too low.
+    /// Chosen, not measured.
     pub const LOWERED_AIM: f64 = 0.8;
-    /// Least factor between two tolerances of a run, for steps two thirds as long by a scheme of third order. Smaller ones mean that the steps so
-    /// far have made the error, which no later steps undo.
+    /// Least factor between two tolerances of a run, for steps two thirds as long by a scheme of third order. A rest that needs a smaller one takes
+    /// this one, if the error then stays within the accepted one. Otherwise the steps so far have made the error, which no later steps undo.
+    /// Chosen, not measured.
     pub const LOWEST: f64 = 0.25;
     /// Largest power of time that errors are believed to follow. A constant error of accelerations becomes an error of positions with the
     /// square of time; the rest is for motion that speeds up. Chosen, not measured.

@@ -97,10 +97,10 @@ fn a_changed_tolerance_counts_by_its_worst_interval() {
 fn a_lowered_tolerance_keeps_the_errors_so_far() {
     let pilot = in_pieces(&[(0.5, 10), (1.0, 10)], &[]);
     let apart = in_pieces(&[(0.5, 20), (1.0, 40)], &[0.5]).apart(&pilot);
-    let [first, second] = [4f64, 16.0].map(|sums| sums.powf(0.8));
+    // The step after the change counts in the first half, too: 20 steps and one of half the length.
+    let [first, second] = [4.0 * 20.5 / 20.125, 16f64].map(|sums| sums.powf(0.8));
     let added = 1.0 / (0.75 / first + 0.25 / second);
-    // The step after the change counts in both halves, which is 1 % of their sums.
-    assert!((apart - added).abs() < 0.02 * added, "{apart} and {added}");
+    assert!((apart - added).abs() < 1e-9 * added, "{apart} and {added}");
 }
 
 /// Errors of first order fall with the length of steps: 1.5 times as long, they are 1.5 times as large.

@@ -28,6 +28,7 @@ mod joint_forces;
 mod kinks;
 mod linear_statics;
 mod load_steps;
+mod look_ahead;
 mod lost_motion;
 mod massless;
 mod modal_damping;

@@ -32,7 +32,7 @@ const OF_CONTACTS: f64 = 0.25;
 /// The share of elastic load steps in the error.
 const OF_ELASTIC_STEPS: f64 = 0.1;
 /// The least share of the mesh in the error of a motion. Steps for two fifths of an error in place of two thirds are a sixth shorter by a scheme of third
-/// order, and the next mesh is twice as dear.
+/// order, and the next mesh is twice as dear. Chosen, not measured.
 const OF_MESH: f64 = 0.6;
 /// Largest ratio of the estimated error to the error asked for; automatic steps have the same.
 const WITHIN: f64 = 1.5;

@@ -162,6 +162,9 @@ impl StepController for EmbeddedErrorController {
     }
 
     fn go_on_with(&mut self, tolerance: f64) {
+        // A next step as long as before would be refused. After a rise the length grows with the steps.
+        let order = self.stepper.error_order() - 1.0;
+        self.next *= (tolerance / self.tolerance).powf(1.0 / order).min(1.0);
         self.tolerance = tolerance;
     }
 

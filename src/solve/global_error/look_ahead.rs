@@ -26,6 +26,8 @@ pub struct LookAhead<'o> {
     first: f64,
     tolerance: f64,
     changed: Option<f64>,
+    /// The least tolerance so far.
+    least: f64,
     /// The time so far, and the integral over it of the excess over the first tolerance.
     time: f64,
     excess: f64,
@@ -35,14 +37,14 @@ pub struct LookAhead<'o> {
     predicted: Option<f64>,
 }
 
-keep!(LookAhead<'_> { first, tolerance, changed, time, excess, looked, predicted } without { pilot, asked, extent, may_end });
+keep!(LookAhead<'_> { first, tolerance, changed, least, time, excess, looked, predicted } without { pilot, asked, extent, may_end });
 
 impl<'o> LookAhead<'o> {
     /// Nothing predicted yet of a run with this tolerance, whose error is to be as asked.
     pub fn new(pilot: &'o Kept, (asked, tolerance): (f64, f64), extent: f64, may_end: bool) -> Self {
         let (time, looked) = (pilot.between[0], pilot.between[0]);
-        let (first, changed, excess, predicted) = (tolerance, None, 0.0, None);
-        LookAhead { pilot, asked, extent, may_end, first, tolerance, changed, time, excess, looked, predicted }
+        let (first, least, changed, excess, predicted) = (tolerance, tolerance, None, 0.0, None);
+        LookAhead { pilot, asked, extent, may_end, first, tolerance, changed, least, time, excess, looked, predicted }
     }
 
     /// The predicted error of a run that is to end early.
@@ -64,6 +66,11 @@ impl<'o> LookAhead<'o> {
     pub fn mean_tolerance(&self) -> f64 {
         let past = self.time - self.pilot.between[0];
         if past > 0.0 { self.first + self.excess / past } else { self.first }
+    }
+
+    /// The least tolerance of the steps so far.
+    pub fn least_tolerance(&self) -> f64 {
+        self.least
     }
 
     /// Counts the steps up to this time.
@@ -107,16 +114,16 @@ impl<'o> LookAhead<'o> {
         let at_most = difference * past.powf(-growth.max(1.0) - 1.0);
         let needed = (1.0 + at_most / (AIM * self.asked)).max(NEAREST);
         let raised = (recent / needed * self.tolerance).min(MOST * self.asked);
-        let factor = rest.factor(self.asked);
         if raised > WORTH * self.tolerance {
             self.change(raised);
-        } else if predicted > self.asked && (LOWEST..1.0 / WORTH).contains(&factor) {
+        } else if let Some(factor) = rest.lowered(self.asked) {
             self.change(factor * self.tolerance);
         }
     }
 
     fn change(&mut self, tolerance: f64) {
         self.tolerance = tolerance;
+        self.least = self.least.min(tolerance);
         self.changed = Some(tolerance);
     }
 }
@@ -146,14 +153,17 @@ impl Rest {
         self.of_past + self.of_rest
     }
 
-    /// The factor on the errors of the rest that leaves the error asked for.
-    fn factor(&self, asked: f64) -> f64 {
-        (LOWERED_AIM * asked - self.of_past) / self.of_rest
+    /// The factor on the tolerance of the rest, if a smaller tolerance is needed and keeps the error within the accepted one.
+    fn lowered(&self, asked: f64) -> Option<f64> {
+        let factor = ((LOWERED_AIM * asked - self.of_past) / self.of_rest).max(LOWEST);
+        let is_needed = self.error() > asked && factor < 1.0 / WORTH;
+        (is_needed && self.of_past + factor * self.of_rest <= WITHIN * asked).then_some(factor)
     }
 
-    /// True if the rest with smaller errors takes longer than a whole run with smaller errors.
+    /// True if no smaller tolerance of the rest suffices, or the rest with it takes longer than a whole run with smaller errors.
     fn is_dearer(&self, asked: f64) -> bool {
-        let longer = |factor: f64| factor.max(0.0).powf(-1.0 / self.order);
-        (1.0 - self.past) * longer(self.factor(asked)) > longer(AIM * asked / self.error())
+        let longer = |factor: f64| factor.powf(-1.0 / self.order);
+        let of_rest = self.lowered(asked).map(|factor| (1.0 - self.past) * longer(factor));
+        of_rest.is_none_or(|of_rest| of_rest > longer(AIM * asked / self.error()))
     }
 }

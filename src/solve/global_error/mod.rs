@@ -29,7 +29,7 @@ pub struct StepError {
     pub asked: f64,
     /// The mean tolerance that the steps followed.
     pub tolerance: f64,
-    /// The least of these tolerances, which the steps began with.
+    /// The least of these tolerances. A run made again keeps it from the start, so it is not looser than the one judged.
     pub least: f64,
     /// The longest step allowed; `None` if only the controller limits it.
     pub longest: Option<f64>,

@@ -31,9 +31,9 @@ impl<'o> Trace<'o> {
         self.ahead.as_ref().and_then(LookAhead::predicted)
     }
 
-    /// The mean tolerance of the steps so far, if it followed a pilot run.
-    pub fn mean_tolerance(&self) -> Option<f64> {
-        self.ahead.as_ref().map(LookAhead::mean_tolerance)
+    /// The mean and the least tolerance of the steps so far, if they followed a pilot run.
+    pub fn tolerances(&self) -> Option<[f64; 2]> {
+        self.ahead.as_ref().map(|ahead| [ahead.mean_tolerance(), ahead.least_tolerance()])
     }
 
     /// The kept data.
