@@ -741,10 +741,55 @@ fn polygons_of_sections() {
         format!("polygons = [{{ points = {square} }}, {{ points = [[0.2, 0.0], [0.3, 0.0], [0.3, 0.1]] }}]"),
         format!("polygons = [{{ points = {square}, material = \"steal\" }}]"),
         format!("mesh_size = 1e-5\npolygons = [{{ points = {square} }}]"),
+        format!("mesh_size = 0.1\npolygons = [{{ points = {square} }}]"),
+        "polygons = []".to_owned(),
+        // Edges that share their ends with the square lead through it.
+        "polygons = [{ points = [[0, 0], [1, 0], [1, 1], [0, 1]] }, { points = [[1, 0], [2, 0], [2, 2], [-1, 2], [0, 0], [1, 1]] }]"
+            .to_owned(),
+        format!(
+            "polygons = [{{ points = {square}, holes = [{inner}, [[0.08, 0.02], [0.09, 0.02], [0.09, 0.08], [0.08, 0.08]]] }}]"
+        ),
+        // A hole that leaves the outline between two of its corners.
+        "polygons = [{ points = [[0, 0], [4, 0], [4, 4], [2, 1], [0, 4]], holes = [[[0, 4], [2, 0.5], [4, 4]]] }]".to_owned(),
         String::new(),
     ];
     let said: Vec<String> = faults.iter().map(|keys| section(keys)).collect();
     assert_snapshot!("polygons_of_sections", said.join("\n"));
+}
+
+/// Materials of polygons, and what does not go with polygons.
+#[test]
+fn materials_of_polygons() {
+    let square = "[[0.0, 0.0], [0.1, 0.0], [0.1, 0.1], [0.0, 0.1]]";
+    let section = |keys: &str, more: &[(&str, &str)]| {
+        let shape = "shape = \"rectangle\"\nwidth = 0.05\nheight = 0.05\n";
+        let keys = format!("{keys}\n");
+        portal(&[&[(shape, keys.as_str())], more].concat())
+    };
+    let with = |keys: &str| format!("shape = \"polygons\"\npolygons = [{{ points = {square}{keys} }}]");
+    let lamina = |direction: &str, moduli: &str, ratios: &str| {
+        with(&format!(
+            ", lamina = {{ youngs_moduli = [{moduli}], shear_moduli = [1e9, 1e9, 1e9], poisson_ratios = [{ratios}], density = 1.0, direction = [{direction}] }}"
+        ))
+    };
+    let (moduli, ratios, along) = ("1e11, 1e10, 1e10", "0.3, 0.3, 0.3", "1.0, 0.0");
+    let sound = lamina(along, moduli, ratios);
+    let none: (&str, &str) = ("material = \"steel\"\nsection", "section");
+    let said = [
+        section(&sound, &[]),
+        section(&sound.replace("lamina", "material = \"steel\", lamina"), &[none]),
+        section(&sound.replace(", density = 1.0", ""), &[none]),
+        section(&lamina(along, "1e11, 0.0, 1e10", ratios), &[none]),
+        section(&lamina("0.0, 0.0", moduli, ratios), &[none]),
+        section(&lamina(along, moduli, "4.0, 0.3, 0.3"), &[none]),
+        section(&with(", material = \"steel\""), &[]),
+        section(&with(""), &[none]),
+        section(&with(""), &[("poisson_ratio = 0.3", "poisson_ratio = 0.4995")]),
+        section(&with(""), &[("density = 7850.0", "density = 7850.0\nyield_stress = 2e8")]),
+        section(&format!("{}\nbars = [{{ material = \"steel\", area = 1e-4, at = [0.0, 0.0] }}]", with("")), &[]),
+        section(&with("").replace("\"polygons\"", "\"circle\"\nradius = 0.1"), &[]),
+    ];
+    assert_snapshot!("materials_of_polygons", said.join("\n"));
 }
 
 /// Links by full matrices.

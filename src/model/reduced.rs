@@ -9,7 +9,7 @@ use super::data::{AnalysisKind, Beam, EQUAL_MODES, LoadOrigin, Model, Node, OwnD
 use super::plausibility::unused::visit_actors;
 use super::report::Report;
 use base::diagnostic::{At, Span};
-use base::math::Vec3;
+use base::math::{Mat3, Vec3};
 use deck::Deck;
 use deck::part_table::{MassKind, ReducedTable};
 use deck::parts::{DeckPart, PartKind};
@@ -399,7 +399,8 @@ fn refuse(model: &Model, part: &DeckPart, parts: &[usize], place: &Span, report:
 
 /// True where a section of a beam has its mass beside the axis.
 fn has_mass_beside_the_axis(model: &Model, beam: &Beam) -> bool {
-    beam.mass != MassKind::None && beam.sections().any(|section| model.stiffnesses[section].mass_center != [0.0; 2])
+    let is_beside = |section: usize| model.stiffnesses[section].mass_arm(&Mat3::identity()).is_some();
+    beam.mass != MassKind::None && beam.sections().any(is_beside)
 }
 
 /// A node for each amplitude.

@@ -168,6 +168,10 @@ impl<'a, 'd> Sections<'a, 'd> {
             return report.error_with(&polygons.span, message, "remove them, or write `shape = \"polygons\"`");
         };
         let own = Owner::new(format!("section `{}`", name.value), &section.span);
+        if polygons.value.is_empty() {
+            let message = format!("{} has an empty list of polygons", own.what);
+            return report.error_with(&polygons.span, message, "give one polygon or more, each with its `points`");
+        }
         if is_composite(section) {
             let message = format!("{} is made of polygons, so it takes no `bars`, `core` and `cover`", own.what);
             return report.error_with(&name.span, message, "give each material a polygon");

@@ -264,6 +264,21 @@ fn the_axis_moves_the_section() {
     assert!((0..2).all(|k| (centroid[k] - exact[k]).abs() < 1e-12), "rounding");
 }
 
+/// A section whose axis is given at its centroid has its mass on the axis, where coordinates are rounded too; so has one without a mass.
+#[test]
+fn a_mass_on_the_axis_has_no_nodes_beside_it() {
+    let rectangle = vec![[0.1, 0.2], [0.16, 0.2], [0.16, 0.3], [0.1, 0.3]];
+    let at_centroid = model(&polygons(&[(&rectangle, "")], ", axis = [0.13, 0.25]"), RATIO, true);
+    assert_eq!(at_centroid.stiffnesses[0].mass_center, [0.0; 2]);
+    assert!(!at_centroid.stiffnesses[0].is_coupled());
+    let lamina = ", lamina = { youngs_moduli = [1e11, 1e10, 1e10], shear_moduli = [5e9, 5e9, 4e9], poisson_ratios = [0.3, 0.3, 0.3], \
+                  direction = [1.0, 0.0] }";
+    for axis in ["", ", axis = [0.0, 0.0]"] {
+        let massless = model(&polygons(&[(&rectangle, lamina)], axis), RATIO, false);
+        assert!(massless.constraints.dependents.is_empty(), "{axis}");
+    }
+}
+
 /// Extreme stresses of a rectangle by polygons and by the series.
 #[test]
 fn stresses_of_a_rectangle_are_those_of_the_series() {

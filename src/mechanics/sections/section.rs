@@ -182,10 +182,10 @@ impl Stiffness {
         }
     }
 
-    /// Vector from the axis to the centre of mass, global components, where the columns of `frame` are the section axes; `None` of a centred mass.
+    /// Vector from the axis to the centre of mass, global components, where the columns of `frame` are the section axes; `None` of a centred mass, or of none.
     pub fn mass_arm(&self, frame: &Mat3) -> Option<Vec3> {
         let [y, z] = self.mass_center;
-        (self.mass_center != [0.0; 2]).then(|| frame * Vec3::new(0.0, y, z))
+        (self.mass_per_length > 0.0 && self.mass_center != [0.0; 2]).then(|| frame * Vec3::new(0.0, y, z))
     }
 }
 

@@ -3,7 +3,7 @@
 //! Edges of polygons are cut into pieces of the mesh size first, so that the meshes of two polygons meet at the nodes of their common edge. Then
 //! each polygon is triangulated alone (constrained Delaunay with refinement after Ruppert and Chew, of the library spade).
 
-use super::outlines::{Outlines, Ring, distance, edges, size};
+use super::outlines::{Outlines, Ring, distance, edges, size, undirected};
 use spade::handles::{FixedFaceHandle, InnerTag};
 use spade::{AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation};
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -13,6 +13,9 @@ const LARGEST_AREA: f64 = 0.433 * 1.3;
 
 /// The smallest angle that refinement aims at, in degrees: it ends for sure below 30.
 const LEAST_ANGLE: f64 = 25.0;
+
+/// Largest difference of the areas of a polygon and of its triangles, over the former: above rounding.
+const FILLED: f64 = 1e-9;
 
 /// Most triangles by the default mesh size, as 20,000 take a second.
 const MOST_BY_DEFAULT: f64 = 20_000.0;
@@ -34,13 +37,15 @@ pub(super) struct SectionMesh {
     pub scale: f64,
     /// The point of the section that is the origin of the mesh, in the coordinates of the deck.
     pub origin: [f64; 2],
+    /// The mesh size over that by the shape, of the polygon where it is largest; 1 by default.
+    pub coarseness: f64,
 }
 
 /// Why there is no mesh.
 pub(super) enum MeshFault {
     /// The mesh size asks for too many triangles: about so many.
     TooFine(f64),
-    /// The triangulation failed.
+    /// The triangulation failed, or its refinement ended before its triangles were small enough.
     Failed,
     /// So many pieces do not meet along an edge.
     Pieces(usize),
@@ -58,10 +63,11 @@ impl SectionMesh {
             outlines.corners.iter().map(|at| [0, 1].map(|k| (at[k] - origin[k]) / scale)).collect();
         let areas: Vec<f64> =
             outlines.rings.iter().map(|rings| rings.iter().map(|ring| area(&nodes, ring)).sum()).collect();
-        let sizes = sizes(&nodes, outlines, &areas, mesh_size.map(|size| size / scale))?;
+        let (sizes, coarseness) = sizes(&nodes, outlines, &areas, mesh_size.map(|size| size / scale))?;
         let rings = divided(&mut nodes, outlines, &sizes);
         let edge_nodes = nodes.len();
-        let mut mesh = SectionMesh { nodes, edge_nodes, triangles: Vec::new(), polygons: Vec::new(), scale, origin };
+        let (triangles, polygons) = (Vec::new(), Vec::new());
+        let mut mesh = SectionMesh { nodes, edge_nodes, triangles, polygons, scale, origin, coarseness };
         for (polygon, rings) in rings.iter().enumerate() {
             mesh.fill(polygon, rings, sizes[polygon], areas[polygon]).ok_or(MeshFault::Failed)?;
         }
@@ -73,7 +79,7 @@ impl SectionMesh {
         Ok(mesh)
     }
 
-    /// Triangulates one polygon; `None` where the library refuses its points.
+    /// Triangulates one polygon; `None` where the library refuses its points, or where triangles do not fill it.
     fn fill(&mut self, polygon: usize, rings: &[Ring], size: f64, area: f64) -> Option<()> {
         let mut plane = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
         let mut numbers: HashMap<[u64; 2], usize> = HashMap::new();
@@ -97,8 +103,15 @@ impl SectionMesh {
             .with_angle_limit(AngleLimit::from_deg(LEAST_ANGLE))
             .with_max_additional_vertices(1000 + (10.0 * area / largest) as usize);
         let result = plane.refine(parameters);
+        if !result.refinement_complete {
+            return None;
+        }
         let outside: HashSet<FixedFaceHandle<InnerTag>> = result.excluded_faces.into_iter().collect();
-        for face in plane.inner_faces().filter(|face| !outside.contains(&face.fix())) {
+        let inside = || plane.inner_faces().filter(|face| !outside.contains(&face.fix()));
+        if (inside().map(|face| face.area()).sum::<f64>() - area).abs() > FILLED * area {
+            return None;
+        }
+        for face in inside() {
             let corners = face.positions().map(|at| {
                 let at = [at.x, at.y];
                 *numbers.entry(at.map(f64::to_bits)).or_insert_with(|| {
@@ -125,12 +138,12 @@ impl SectionMesh {
         }
         let mut sides: HashMap<(usize, usize), usize> = HashMap::new();
         for (number, triangle) in self.triangles.iter().enumerate() {
-            for (a, b) in edges(&triangle[..3]) {
-                if let Some(&other) = sides.get(&(a.min(b), a.max(b))) {
+            for edge in edges(&triangle[..3]).map(undirected) {
+                if let Some(&other) = sides.get(&edge) {
                     let (one, two) = (first(&mut group, number), first(&mut group, other));
                     group[one.max(two)] = one.min(two);
                 }
-                sides.insert((a.min(b), a.max(b)), number);
+                sides.insert(edge, number);
             }
         }
         (0..group.len()).filter(|&number| group[number] == number).count()
@@ -142,7 +155,7 @@ impl SectionMesh {
         for triangle in &mut self.triangles {
             for side in 0..3 {
                 let (a, b) = (triangle[side], triangle[(side + 1) % 3]);
-                triangle[3 + side] = *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                triangle[3 + side] = *middles.entry(undirected((a, b))).or_insert_with(|| {
                     let [p, q] = [self.nodes[a], self.nodes[b]];
                     self.nodes.push([0, 1].map(|k| 0.5 * (p[k] + q[k])));
                     self.nodes.len() - 1
@@ -157,27 +170,35 @@ fn area(nodes: &[[f64; 2]], ring: &[usize]) -> f64 {
     edges(ring).map(|(a, b)| 0.5 * (nodes[a][0] * nodes[b][1] - nodes[a][1] * nodes[b][0])).sum()
 }
 
-/// The length of edges in each polygon.
-fn sizes(nodes: &[[f64; 2]], outlines: &Outlines, areas: &[f64], given: Option<f64>) -> Result<Vec<f64>, MeshFault> {
+/// The length of edges in each polygon, and the largest ratio of it to that by the shape.
+fn sizes(
+    nodes: &[[f64; 2]],
+    outlines: &Outlines,
+    areas: &[f64],
+    given: Option<f64>,
+) -> Result<(Vec<f64>, f64), MeshFault> {
     let all: f64 = areas.iter().sum();
-    if let Some(given) = given {
-        let triangles = all / (0.433 * given * given);
-        return if triangles > MOST { Err(MeshFault::TooFine(triangles)) } else { Ok(vec![given; areas.len()]) };
-    }
     let least = (all / (0.433 * MOST_BY_DEFAULT)).sqrt();
     let by_shape = outlines.rings.iter().zip(areas).map(|(rings, area)| {
         let sides = rings.iter().flat_map(|ring| edges(ring)).map(|(a, b)| distance(nodes[a], nodes[b]));
         (2.0 / 3.0 * area / sides.sum::<f64>()).min(area.sqrt() / 16.0).max(least)
     });
-    Ok(by_shape.collect())
+    let by_shape: Vec<f64> = by_shape.collect();
+    let Some(given) = given else { return Ok((by_shape, 1.0)) };
+    let triangles = all / (0.433 * given * given);
+    if triangles > MOST {
+        return Err(MeshFault::TooFine(triangles));
+    }
+    let least = by_shape.into_iter().fold(f64::INFINITY, f64::min);
+    Ok((vec![given; areas.len()], given / least))
 }
 
 /// Cuts the edges of all rings into pieces of the size of the finer polygon beside them.
 fn divided(nodes: &mut Vec<[f64; 2]>, outlines: &Outlines, sizes: &[f64]) -> Vec<Vec<Ring>> {
     let mut finest: BTreeMap<(usize, usize), f64> = BTreeMap::new();
     for (rings, &size) in outlines.rings.iter().zip(sizes) {
-        for (a, b) in rings.iter().flat_map(|ring| edges(ring)) {
-            let least = finest.entry((a.min(b), a.max(b))).or_insert(size);
+        for edge in rings.iter().flat_map(|ring| edges(ring)).map(undirected) {
+            let least = finest.entry(edge).or_insert(size);
             *least = least.min(size);
         }
     }
@@ -196,7 +217,7 @@ fn divided(nodes: &mut Vec<[f64; 2]>, outlines: &Outlines, sizes: &[f64]) -> Vec
         let mut divided = Vec::new();
         for (a, b) in edges(ring) {
             divided.push(a);
-            let between = &inner[&(a.min(b), a.max(b))];
+            let between = &inner[&undirected((a, b))];
             match a < b {
                 true => divided.extend(between),
                 false => divided.extend(between.iter().rev()),

@@ -168,18 +168,27 @@ impl Outlines {
         Ok(())
     }
 
-    /// Checks that no two polygons lie on one side of an edge, and that no hole opens an outline.
+    /// Checks that no two polygons lie on one side of an edge, and that the rings of a polygon share none.
     fn check_sides(&self) -> Result<(), OutlineFault> {
         let mut sides: BTreeMap<(usize, usize), usize> = BTreeMap::new();
-        for (polygon, (a, b)) in self.directed() {
-            if let Some(other) = sides.insert((a, b), polygon) {
-                let edge = format!("{} to {}", place_of(self.corners[a]), place_of(self.corners[b]));
-                return fault(polygon, format!("overlaps polygon {} at the edge from {edge}", other + 1), OVERLAP);
-            }
-            if sides.get(&(b, a)) == Some(&polygon) {
-                let edge = format!("{} to {}", place_of(self.corners[a]), place_of(self.corners[b]));
-                let message = format!("has a hole along its outline, from {edge}");
-                return fault(polygon, message, "lead the outline round the hole");
+        for (polygon, rings) in self.rings.iter().enumerate() {
+            let outline: BTreeSet<(usize, usize)> = edges(&rings[0]).map(undirected).collect();
+            let mut own = BTreeSet::new();
+            for (a, b) in rings.iter().flat_map(|ring| edges(ring)) {
+                let edge = || format!("{} to {}", place_of(self.corners[a]), place_of(self.corners[b]));
+                let is_repeated = !own.insert(undirected((a, b)));
+                if is_repeated && outline.contains(&undirected((a, b))) {
+                    let message = format!("has a hole along its outline, from {}", edge());
+                    return fault(polygon, message, "lead the outline round the hole");
+                }
+                if is_repeated {
+                    let message = format!("has two holes along one edge, from {}", edge());
+                    return fault(polygon, message, "give them as one hole; other polygons may fill parts of it");
+                }
+                if let Some(other) = sides.insert((a, b), polygon) {
+                    let message = format!("overlaps polygon {} at the edge from {}", other + 1, edge());
+                    return fault(polygon, message, OVERLAP);
+                }
             }
         }
         Ok(())
@@ -189,18 +198,17 @@ impl Outlines {
         for (polygon, rings) in self.rings.iter().enumerate() {
             for (place, hole) in rings.iter().enumerate().skip(1) {
                 let others = rings.iter().enumerate().filter(|(other, _)| *other != place);
-                let around: Vec<usize> = others
-                    .filter(|(_, ring)| self.is_inside(self.middle(hole), &[ring.as_slice()]))
-                    .map(|(k, _)| k)
-                    .collect();
+                // Rings share no edge here, so that each edge lies within another ring or beside it.
+                let around = others.filter(|(other, ring)| {
+                    let within = |edge| self.is_inside(self.middle(edge), &[ring.as_slice()]);
+                    if *other == 0 { edges(hole).all(within) } else { edges(hole).any(within) }
+                });
+                let around: Vec<usize> = around.map(|(k, _)| k).collect();
                 if around != [0] {
                     let message = format!(
                         "has a hole at {} {}",
                         place_of(self.corners[hole[0]]),
-                        match around.first() {
-                            Some(0) => "within another hole",
-                            _ => "outside of its outline",
-                        }
+                        if around.first() == Some(&0) { "within another hole" } else { "outside of its outline" }
                     );
                     return fault(polygon, message, "give each hole within the outline and beside the others");
                 }
@@ -209,29 +217,25 @@ impl Outlines {
         Ok(())
     }
 
+    /// Checks that no edge of a polygon lies within another: edges cross none, so that polygons which overlap have such an edge or share all.
     fn check_overlaps(&self) -> Result<(), OutlineFault> {
-        let undirected: Vec<BTreeSet<(usize, usize)>> = self
-            .rings
-            .iter()
-            .map(|rings| rings.iter().flat_map(|ring| edges(ring)).map(|(a, b)| (a.min(b), a.max(b))).collect())
-            .collect();
-        for (polygon, rings) in self.rings.iter().enumerate() {
-            for (other, its_rings) in self.rings.iter().enumerate().filter(|(other, _)| *other != polygon) {
-                let own = edges(&rings[0]).find(|(a, b)| !undirected[other].contains(&(*a.min(b), *a.max(b))));
-                let Some((a, b)) = own else { continue };
-                let middle = [0, 1].map(|k| 0.5 * (self.corners[a][k] + self.corners[b][k]));
-                let its_rings: Vec<&[usize]> = its_rings.iter().map(Vec::as_slice).collect();
-                if self.is_inside(middle, &its_rings) {
-                    return fault(polygon, format!("lies within polygon {}", other + 1), OVERLAP);
+        for (polygon, (a, b)) in self.directed() {
+            let middle = self.middle((a, b));
+            for (other, rings) in self.rings.iter().enumerate().filter(|(other, _)| *other != polygon) {
+                let rings: Vec<&[usize]> = rings.iter().map(Vec::as_slice).collect();
+                let is_shared = || rings.iter().flat_map(|ring| edges(ring)).any(|edge| edge == (b, a));
+                if self.is_inside(middle, &rings) && !is_shared() {
+                    let edge = format!("{} to {}", place_of(self.corners[a]), place_of(self.corners[b]));
+                    return fault(polygon, format!("overlaps polygon {} at the edge from {edge}", other + 1), OVERLAP);
                 }
             }
         }
         Ok(())
     }
 
-    /// The middle of the first edge of a ring.
-    fn middle(&self, ring: &[usize]) -> [f64; 2] {
-        [0, 1].map(|k| 0.5 * (self.corners[ring[0]][k] + self.corners[ring[1]][k]))
+    /// The middle of an edge.
+    fn middle(&self, (a, b): (usize, usize)) -> [f64; 2] {
+        [0, 1].map(|k| 0.5 * (self.corners[a][k] + self.corners[b][k]))
     }
 
     /// True where a place lies within an odd number of rings, by the crossings of a ray towards +y.
@@ -246,6 +250,11 @@ impl Outlines {
 
 /// The remedy of polygons that overlap.
 const OVERLAP: &str = "give the outer polygon a hole where the inner one lies";
+
+/// The ends of an edge, the smaller number first.
+pub(super) fn undirected((a, b): (usize, usize)) -> (usize, usize) {
+    (a.min(b), a.max(b))
+}
 
 /// The edges of a ring.
 pub(super) fn edges(ring: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
