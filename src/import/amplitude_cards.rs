@@ -5,7 +5,7 @@ use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::time_formula::TimeFormula;
 
-/// Number of points of the curve of a formula.
+/// Number of points of smooth steps.
 const POINTS: usize = 200;
 
 /// `*AMPLITUDE`.
@@ -35,6 +35,16 @@ pub fn amplitude(im: &mut Importer, block: &KeywordBlock) {
     };
     let all: Vec<f64> = rows.iter().flatten().copied().collect();
     let mut card = AmplitudeCard { name, line, is_total, ..AmplitudeCard::default() };
+    if let Some(read) = TimeFormula::reader(&kind) {
+        let Some(formula) = read(&all) else {
+            return im.refuse(line, &format!("DEFINITION={kind} has not the numbers of its formula"));
+        };
+        if [shift, delay, scale] != [0.0; 3] {
+            return im.refuse(line, "an amplitude by formula is not shifted: give its own start and constant");
+        }
+        card.formula = Some(formula);
+        return im.amplitudes.push(card);
+    }
     match &kind[..] {
         kind if "TABULAR".starts_with(kind) => {
             card.points = all.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
@@ -42,9 +52,6 @@ pub fn amplitude(im: &mut Importer, block: &KeywordBlock) {
         "EQUALLYSPACED" if interval > 0.0 => {
             card.points = (0..).zip(&all).map(|(k, value)| [f64::from(k) * interval, *value]).collect();
         }
-        "PERIODIC" => card.formula = TimeFormula::periodic(&all),
-        "DECAY" => card.formula = TimeFormula::decay(&all),
-        "MODULATED" => card.formula = TimeFormula::modulated(&all),
         "SMOOTHSTEP" => {
             card.points = smooth_steps(&all);
             im.change(line, "a smooth step is a table of points");
@@ -56,13 +63,7 @@ pub fn amplitude(im: &mut Importer, block: &KeywordBlock) {
         point[1] += scale;
     }
     let increase = card.points.windows(2).all(|pair| pair[0][0] < pair[1][0]);
-    if card.formula.is_none() && ["PERIODIC", "DECAY", "MODULATED"].contains(&&kind[..]) {
-        return im.refuse(line, &format!("DEFINITION={kind} has not the numbers of its formula"));
-    }
-    if card.formula.is_some() && [shift, delay, scale] != [0.0; 3] {
-        return im.refuse(line, "an amplitude by formula is not shifted: give its own start and constant");
-    }
-    if card.formula.is_none() && (card.points.is_empty() || !increase) {
+    if card.points.is_empty() || !increase {
         return im.refuse(line, "times of an amplitude must increase");
     }
     im.amplitudes.push(card);

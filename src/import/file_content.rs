@@ -6,9 +6,6 @@ use crate::tied_nodes::NodalAxes;
 use crate::time_formula::TimeFormula;
 use base::math::Vec3;
 
-/// Number of points of the curve of a formula.
-const POINTS: usize = 200;
-
 /// A material as the file has it.
 #[derive(Debug, Clone, Default)]
 pub struct MaterialCard {
@@ -368,10 +365,11 @@ impl AmplitudeCard {
 
     /// The corners in time of a step of this length, from 0 to its end.
     pub fn corners(&self, duration: f64) -> Vec<f64> {
-        let mut times: Vec<f64> = match self.formula {
-            Some(_) => (0..=POINTS).map(|k| duration * k as f64 / POINTS as f64).collect(),
-            None => self.points.iter().map(|point| point[0]).filter(|t| *t > 0.0 && *t < duration).collect(),
+        let mut times = match &self.formula {
+            Some(formula) => formula.times(duration),
+            None => self.points.iter().map(|point| point[0]).collect(),
         };
+        times.retain(|t| *t > 0.0 && *t < duration);
         times.extend([0.0, duration]);
         times.sort_by(f64::total_cmp);
         times.dedup();

@@ -4,12 +4,15 @@ use crate::build::Build;
 use crate::deck_text::{DeckTable, list, vector};
 use crate::file_content::{AmplitudeCard, StepCard, StepProcedure};
 use crate::time_formula::TimeFormula;
-use crate::timeline::{GivenValue, InStep, StageOfStep, TimeLaw};
+use crate::timeline::{GivenValue, InStep, TimeLaw};
 
 /// A value jumps within this part of a step.
 const JUMP: f64 = 1e-9;
-/// The most periods of a sine in a step that a table of points follows.
-const MOST_PERIODS: f64 = 10.0;
+/// Why a table cannot hold an amplitude by formula.
+const MANY_PERIODS: &str =
+    "an amplitude by formula has more than 40 periods here, too many for a table of points: give it shorter steps";
+/// What becomes of an amplitude by formula.
+const DRAWN: &str = "an amplitude by formula is a table of 200 points a step or more, 100 a period";
 
 impl Build<'_, '_, '_> {
     /// The law of a value from its entries in the general steps. `is_motion`: of a support.
@@ -99,9 +102,11 @@ impl Build<'_, '_, '_> {
             match (state, &followed) {
                 // Values by the time of the run go on in later steps.
                 (_, Some((card, to, line))) => {
-                    refused.extend(unsaid(card, stage).map(|why| (*line, why.to_owned())));
                     drawn.extend(card.formula.as_ref().map(|_| *line));
                     let card = if card.is_total { card.seen_from(start) } else { card.clone() };
+                    if card.formula.as_ref().is_some_and(|formula| formula.has_many_periods(stage.duration)) {
+                        refused.push((*line, MANY_PERIODS.to_owned()));
+                    }
                     for t in card.corners(stage.duration) {
                         value = to * card.at(t);
                         add(if t == 0.0 && *state != InStep::Holds { soon } else { start + t }, value);
@@ -124,9 +129,7 @@ impl Build<'_, '_, '_> {
         refused.dedup();
         refused.into_iter().for_each(|(line, why)| self.im.refuse(line, &why));
         drawn.dedup();
-        drawn
-            .into_iter()
-            .for_each(|line| self.im.change(line, "an amplitude by formula is a table of 200 points a step"));
+        drawn.into_iter().for_each(|line| self.im.change(line, DRAWN));
         points
     }
 
@@ -175,8 +178,12 @@ impl Build<'_, '_, '_> {
         }
         let end = self.timeline.end();
         let table = match card.formula.as_ref().map(TimeFormula::sine) {
+            Some(None) if card.formula.as_ref().is_some_and(|formula| formula.has_many_periods(end)) => {
+                self.im.refuse(line, MANY_PERIODS);
+                return None;
+            }
             Some(None) => {
-                self.im.change(line, "an amplitude by formula is a table of 200 points");
+                self.im.change(line, DRAWN);
                 let rows = card.corners(end).into_iter().map(|t| vector(&[t, card.at(t)]));
                 table.text("kind", "table").value("points", list(rows)).text("after", "hold")
             }
@@ -212,14 +219,6 @@ impl Build<'_, '_, '_> {
         self.amplitudes.0.insert(content, unique.clone());
         unique
     }
-}
-
-/// Why a table over all steps cannot hold an amplitude of one of them.
-fn unsaid(card: &AmplitudeCard, stage: &StageOfStep) -> Option<&'static str> {
-    let periods = card.formula.as_ref().map_or(0.0, |formula| formula.frequency() * stage.duration);
-    (periods > MOST_PERIODS).then_some(
-        "an amplitude by formula has too many periods here for a table of points: give it a file of one step",
-    )
 }
 
 /// The line of the procedure of a step.

@@ -2,6 +2,17 @@
 
 use std::f64::consts::TAU;
 
+/// The least number of points of a table.
+const POINTS: f64 = 200.0;
+/// Points in a period: a chord then misses a sine by (2π/100)²/8, 5e-4 of its size.
+const POINTS_OF_PERIOD: f64 = 100.0;
+/// The most periods of a table.
+const MOST_PERIODS: f64 = 40.0;
+/// The times of decay after which less than 1e-13 is left.
+const LAST_DECAY: f64 = 30.0;
+/// A value jumps within this part of a step.
+const JUMP: f64 = 1e-9;
+
 /// A formula that begins at a time; before it only its constant part holds.
 #[derive(Debug, Clone)]
 pub struct TimeFormula {
@@ -23,8 +34,18 @@ enum VaryingPart {
 }
 
 impl TimeFormula {
+    /// What reads the numbers of a DEFINITION; `None` for one that is no formula.
+    pub fn reader(kind: &str) -> Option<fn(&[f64]) -> Option<TimeFormula>> {
+        match kind {
+            "PERIODIC" => Some(TimeFormula::periodic),
+            "DECAY" => Some(TimeFormula::decay),
+            "MODULATED" => Some(TimeFormula::modulated),
+            _ => None,
+        }
+    }
+
     /// N, ω, t₀, A₀, then A and B of N terms.
-    pub fn periodic(values: &[f64]) -> Option<TimeFormula> {
+    fn periodic(values: &[f64]) -> Option<TimeFormula> {
         let [count, omega, start, constant, terms @ ..] = values else { return None };
         let is_whole = *omega > 0.0 && terms.len() as f64 == 2.0 * count && !terms.is_empty();
         let terms = terms.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
@@ -33,13 +54,13 @@ impl TimeFormula {
     }
 
     /// A₀, A, t₀ and the time of decay.
-    pub fn decay(values: &[f64]) -> Option<TimeFormula> {
+    fn decay(values: &[f64]) -> Option<TimeFormula> {
         let &[constant, factor, start, time] = values else { return None };
         (time > 0.0).then_some(TimeFormula { constant, start, rest: VaryingPart::Decay(factor, time) })
     }
 
     /// A₀, A, t₀, ω₁ and ω₂.
-    pub fn modulated(values: &[f64]) -> Option<TimeFormula> {
+    fn modulated(values: &[f64]) -> Option<TimeFormula> {
         let &[constant, factor, start, a, b] = values else { return None };
         Some(TimeFormula { constant, start, rest: VaryingPart::Modulated(factor, [a, b]) })
     }
@@ -69,8 +90,39 @@ impl TimeFormula {
         TimeFormula { start: self.start - now, ..self.clone() }
     }
 
-    /// The highest frequency in it.
-    pub fn frequency(&self) -> f64 {
+    /// True where a table over this time would have too many points.
+    pub fn has_many_periods(&self, duration: f64) -> bool {
+        self.frequency() * (duration - self.start.max(0.0)) > MOST_PERIODS
+    }
+
+    /// The times of a table over a time: the start and the time before it, then points by the curvature.
+    pub fn times(&self, duration: f64) -> Vec<f64> {
+        let from = self.start.max(0.0);
+        let span = duration - from;
+        if span <= 0.0 {
+            return Vec::new();
+        }
+        let before = [from - JUMP * duration, from];
+        let periods = (self.frequency() * span).min(MOST_PERIODS);
+        let count = POINTS.max((POINTS_OF_PERIOD * periods).ceil());
+        let parts = (1..count as u32).map(|k| f64::from(k) / count);
+        // Chords miss an exponential alike where points lie as dense as the root of its second derivative.
+        let at = |part: f64| match self.rest {
+            VaryingPart::Decay(_, time) => {
+                let least = (-0.5 * (span / time).min(LAST_DECAY)).exp();
+                -2.0 * time * (1.0 - part * (1.0 - least)).ln()
+            }
+            _ => part * span,
+        };
+        let last = match self.rest {
+            VaryingPart::Decay(_, time) => LAST_DECAY * time,
+            _ => span,
+        };
+        before.into_iter().chain(parts.map(|part| from + at(part))).chain([from + last]).collect()
+    }
+
+    /// The highest frequency in it; a decay has none.
+    fn frequency(&self) -> f64 {
         match &self.rest {
             VaryingPart::Fourier(omega, terms) => terms.len() as f64 * omega / TAU,
             VaryingPart::Decay(..) => 0.0,

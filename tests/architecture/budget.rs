@@ -4,11 +4,11 @@ use super::source::{CRATES, lines_below};
 
 /// Lines of the sources below src by crate, `program` for what lies beside them.
 const BUDGET: [(&str, usize); 11] = [
-    ("base", 7000),
+    ("base", 7020),
     ("linear", 4270),
     ("mechanics", 36_410),
     ("deck", 5440),
-    ("import", 11_290),
+    ("import", 11_410),
     ("model", 27_870),
     ("solve", 36_340),
     ("results", 11_550),

@@ -1,7 +1,10 @@
 //! One file in many dresses: the same deck and the same mesh.
 
+use super::rows::{BEAM, edited};
 use super::{deck, decks, imported, refusals, tables};
 use assert_cmd::Command;
+use import::Imported;
+use rdsolve::text_file::includes::Included;
 
 /// Case in keywords, blanks, tabs, ends of lines, comments, the order of blocks: the same tables and the same mesh.
 #[test]
@@ -59,9 +62,11 @@ fn broken_lines_and_other_names() {
     }
 }
 
-/// The file with its first block of nodes once more.
+/// The file with its first blocks of nodes and of elements once more.
 fn twice(text: &str) -> String {
-    let (begin, end) = (text.find("*Node").unwrap(), text.find("*E").unwrap());
+    let begin = text.find("*Node").unwrap();
+    let cells = begin + text[begin..].find("*E").unwrap();
+    let end = cells + 1 + text[cells + 1..].find('*').unwrap();
     format!("{}{}", &text[..end], &text[begin..])
 }
 
@@ -90,6 +95,57 @@ fn includes() {
     });
     assert_eq!(made[0], made[1]);
     assert_eq!(made[0], made[2]);
+}
+
+/// Data in a file of INPUT= are those below the keyword. A keyword whose file is not read is refused, and a missing file is an error.
+#[test]
+fn data_in_files() {
+    let more = "*ELSET, ELSET=all\n1\n*AMPLITUDE, NAME=A\n0., 0., 1., 2.\n*EQUATION\n2\n2, 1, 1., 2, 2, -1.\n\
+                *INITIAL CONDITIONS, TYPE=TEMPERATURE\n1, 20.\n2, 20.\n*BOUNDARY\n";
+    let loads = "*CLOAD, AMPLITUDE=A\n2, 3, 5.\n*DLOAD\nrod, PY, 3.\n*TEMPERATURE\n1, 30.\n2, 30.\n";
+    let mpc = "*MPC\nPIN, 2, 3\n*BOUNDARY\n";
+    let plain =
+        edited(BEAM, &[("*BOUNDARY\n", more), ("*CLOAD\n2, 3, 5.\n", loads), ("0.3\n", "0.3\n*EXPANSION\n1e-5\n")]);
+    let made_of = |text: &str, data: Option<&str>| {
+        let mut read = |_: &str| data.map(|data| data.as_bytes().to_vec()).ok_or(std::io::ErrorKind::NotFound.into());
+        let whole = Included::new("a.inp", text.as_bytes().to_vec(), &mut read).map_err(drop)?;
+        Ok::<_, ()>(imported(&String::from_utf8(whole.bytes).unwrap()))
+    };
+    let read = [
+        "NODE",
+        "ELEMENT",
+        "NSET",
+        "ELSET",
+        "AMPLITUDE",
+        "EQUATION",
+        "INITIAL CONDITIONS",
+        "BOUNDARY",
+        "CLOAD",
+        "DLOAD",
+        "TEMPERATURE",
+        "MPC",
+    ];
+    for (word, is_read) in read.map(|word| (word, true)).into_iter().chain([("EXPANSION", false), ("DENSITY", false)]) {
+        let plain = if word == "MPC" { edited(BEAM, &[("*BOUNDARY\n", mpc)]) } else { plain.clone() };
+        let wanted = imported(&plain);
+        assert!(word == "MPC" || refusals(&wanted).is_empty(), "{:?}", refusals(&wanted));
+        let begin = plain.find(&format!("*{word}")).unwrap();
+        let head = begin + plain[begin..].find('\n').unwrap();
+        let end = head + plain[head..].find('*').unwrap();
+        let text = format!("{}, INPUT=data.txt\n{}", &plain[..head], &plain[end..]);
+        let made = made_of(&text, Some(&plain[head + 1..end]));
+        if is_read {
+            let made = made.unwrap();
+            // An equation has the number of its line in its name.
+            let tables = |made: &Imported| tables(&made.deck).replace("equation_26", "equation_25");
+            assert_eq!((tables(&made), &made.mesh), (tables(&wanted), &wanted.mesh), "{word}");
+            assert_eq!(refusals(&made).len(), refusals(&wanted).len(), "{word}");
+            assert!(made_of(&text, None).is_err(), "{word}");
+        } else {
+            let said = refusals(&made.unwrap()).join("; ");
+            assert!(said.contains(&format!("INPUT of *{word} is not read")), "{said}");
+        }
+    }
 }
 
 /// Blocks may stand in another order: sections before materials, supports before elements.

@@ -458,9 +458,52 @@ fn amplitudes_by_formula() {
         }
     }
     let with = |lines: &'static str| [("*BOUNDARY", lines), ("*CLOAD", "*CLOAD, AMPLITUDE=A")];
+    // 157 periods in a step.
+    let many = "*AMPLITUDE, NAME=A, DEFINITION=PERIODIC\n1, 986.4601, 0., 1.\n0., 1.\n*BOUNDARY";
+    refuses(BEAM, &with(many), "more than 40 periods");
+    refuses(&edited(BEAM, &[("*END STEP\n", second)]), &with(many), "more than 40 periods");
     refuses(BEAM, &with("*AMPLITUDE, NAME=A, DEFINITION=DECAY\n0., 1., 0.\n*BOUNDARY"), "the numbers of its formula");
     let shifted = "*AMPLITUDE, NAME=A, DEFINITION=DECAY, SHIFTX=1.\n0., 1., 0., 1.\n*BOUNDARY";
     refuses(BEAM, &with(shifted), "an amplitude by formula is not shifted");
+}
+
+/// Between its points a table misses a formula by the square of their distance: a sine by (2π/100)²/8, 5e-4. It falls at its start in a part
+/// 1e-9 of the step. Its integral is that of the formula, also of a decay in a thousandth of the step.
+#[test]
+fn tables_of_formulas_between_their_points() {
+    let second = "*END STEP\n*STEP, NLGEOM\n*STATIC\n1., 1.\n*CLOAD\n2, 2, 1.\n*END STEP\n";
+    let of = |lines: &str, is_staged: bool| -> Vec<[f64; 2]> {
+        let with = format!("*AMPLITUDE, NAME=A, DEFINITION={lines}*BOUNDARY");
+        let text = edited(BEAM, &[("*BOUNDARY", with.as_str()), ("*CLOAD", "*CLOAD, AMPLITUDE=A")]);
+        let text = if is_staged { edited(&text, &[("*END STEP\n", second)]) } else { text };
+        let made = imported(&text);
+        assert_eq!(refusals(&made), [""; 0]);
+        let forces = made.deck.lines().filter(|line| line.starts_with("force"));
+        let force: f64 = forces.map(|line| row_of(line, "force")[2]).sum();
+        let points = row_of(&made.deck, "points");
+        points.chunks(2).map(|point| [point[0], force * point[1] / 5.0]).filter(|point| point[0] <= 1.0).collect()
+    };
+    for is_staged in [false, true] {
+        let sines = of("PERIODIC\n2, 157., 0.3001, 0.5\n0., 2., 0., 1.\n", is_staged);
+        let decay = of("DECAY\n0., 2., 0.3001, 0.001\n", is_staged);
+        let shape = |t: f64| {
+            if t < 0.3001 { 0.5 } else { 0.5 + 2.0 * (157.0 * (t - 0.3001)).sin() + (314.0 * (t - 0.3001)).sin() }
+        };
+        let fall = |t: f64| if t < 0.3001 { 0.0 } else { 2.0 * (-(t - 0.3001) / 0.001).exp() };
+        let formulas: [(Vec<[f64; 2]>, &dyn Fn(f64) -> f64, f64); 2] =
+            [(sines, &shape, 3.0), (decay.clone(), &fall, 2.0)];
+        for (points, formula, size) in formulas {
+            for pair in points.windows(2).filter(|pair| pair[1][0] < 1.0 && pair[1][0] - pair[0][0] > 1e-8) {
+                for part in [0.25, 0.5, 0.75] {
+                    let [t, value] = [0, 1].map(|i| pair[0][i] + part * (pair[1][i] - pair[0][i]));
+                    assert!((value - formula(t)).abs() < 5e-4 * size, "{t}: {value} for {}", formula(t));
+                }
+            }
+        }
+        let sum: f64 = decay.windows(2).map(|pair| 0.5 * (pair[0][1] + pair[1][1]) * (pair[1][0] - pair[0][0])).sum();
+        // Its last chord adds 2.4e-4.
+        assert!((sum / 0.002 - 1.0).abs() < 4e-4, "{sum}");
+    }
 }
 
 /// Values at the temperature of the start: between rows, beyond the last one, and of the first one where the file gives no temperature.

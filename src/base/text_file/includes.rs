@@ -86,10 +86,28 @@ impl Included {
     }
 }
 
-/// The name of the file that a keyword includes.
+/// The keywords whose INPUT= names a file with their data.
+const READ: &[&str] = &[
+    "INCLUDE",
+    "NODE",
+    "ELEMENT",
+    "NSET",
+    "ELSET",
+    "AMPLITUDE",
+    "NODALTHICKNESS",
+    "EQUATION",
+    "MPC",
+    "INITIALCONDITIONS",
+    "BOUNDARY",
+    "CLOAD",
+    "DLOAD",
+    "DSLOAD",
+    "TEMPERATURE",
+];
+
+/// The name of the file that a keyword includes. INPUT= of other keywords is not asked for, so it stays unread.
 pub fn included<'k>(keyword: &'k Keyword) -> Option<&'k str> {
-    let reads = ["INCLUDE", "NODE", "ELEMENT", "NSET", "ELSET", "AMPLITUDE"].contains(&keyword.key().as_str());
-    keyword.value("INPUT").filter(|_| reads)
+    READ.contains(&keyword.key().as_str()).then(|| keyword.value("INPUT")).flatten()
 }
 
 /// True where bytes hold a word, in whatever case.
