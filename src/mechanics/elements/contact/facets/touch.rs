@@ -16,8 +16,6 @@ use base::math::Vec3;
 const ONE_DIRECTION: f64 = 0.7;
 /// Least cosine between the normals of neighbouring facets for a point to carry its memory from one to the other.
 const NEIGHBOURS: f64 = 0.5;
-/// The least depth of a remembered facet, as a part of that of the deepest, with which it stays.
-const AS_DEEP: f64 = 0.5;
 
 /// Finds the facets near a point, the nearest first. `history` is that of the point.
 pub(super) fn find(
@@ -145,42 +143,54 @@ pub(super) fn find_within(
     }
 }
 
-/// True for a facet that a point remembers.
-fn is_known(of: &FacetScene, history: &[f64], facet: usize) -> bool {
+/// The remembered depth of a point in a facet; `None` for a facet that it does not remember.
+fn known_depth(of: &FacetScene, history: &[f64], facet: usize) -> Option<f64> {
     let memories = (0..of.slots).map(|slot| of.memory(history, slot));
-    memories.filter(|memory| memory.is_known()).any(|memory| memory.facet() == facet)
+    memories.filter(|memory| memory.is_known() && memory.facet() == facet).map(|memory| -memory.gap()).next()
 }
 
 /// Lets the plane of a remembered facet go on beyond its rim until the end of a load step, if a neighbour in nearly the same plane is as
 /// near. The force of a point that slides over a shallow fold has no kink within the step, so the iteration converges. At the end of the step
 /// the contact energy jumps by force times angle times the way past the rim; in dynamics the facet changes at once.
+///
+/// How far the plane may lie from the surface is measured by the depth at the last step: their distance at the point does not change with the
+/// depth in this one, so the iteration cannot alternate between both.
 fn go_on_in_plane(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], found: &mut [FacetTouch]) {
-    /// Least cosine between the normals of both.
-    const ONE_PLANE: f64 = 0.99;
+    /// Largest square of the angle, over that of depth to reach: the edge of a ridge is rounded with the reach, which may lift it off the plane
+    /// by a twentieth of the depth.
+    const ROUNDED: f64 = 0.1;
+    /// Largest square of the sine of the angle.
+    const STEEPEST: f64 = 0.02;
     /// The same distance up to rounding, relative to the reach.
     const AS_NEAR: f64 = 1e-9;
+    /// The largest distance between the plane and the surface, as a part of the remembered depth.
+    const OFF: f64 = 0.5;
     let (x, origin) = seen(of, e, nodes);
-    let deepest = found.iter().filter(|touch| touch.counts).map(|touch| touch.gap).fold(0.0, f64::min);
     for k in 0..found.len() {
         let touch = found[k];
         let [Some(a), b] = touch.rim else { continue };
         let facet = &of.facets[touch.facet];
+        let Some(depth) = known_depth(of, history, touch.facet).filter(|_| touch.counts && facet.has_sides()) else {
+            continue;
+        };
         let reach = facet.half + of.points[e].radius;
+        let shallow = (ROUNDED * depth / reach).min(STEEPEST);
+        let is_level = |other: &&FacetTouch| {
+            let is_shallow = other.normal.cross(&touch.normal).norm_squared() <= shallow;
+            other.facet != touch.facet && other.counts && other.normal.dot(&touch.normal) > 0.0 && is_shallow
+        };
         let takes_over = |other: &FacetTouch| {
             let has = |corner: usize| of.facets[other.facet].names.contains(&corner);
-            other.facet != touch.facet
-                && other.counts
-                && (has(a) && b.is_none_or(has))
-                && other.normal.dot(&touch.normal) > ONE_PLANE
-                && other.gap <= touch.gap + AS_NEAR * reach
+            has(a) && b.is_none_or(has) && other.gap <= touch.gap + AS_NEAR * reach
         };
-        if !(touch.counts && is_known(of, history, touch.facet) && found.iter().any(takes_over)) {
+        if !found.iter().filter(is_level).any(takes_over) {
             continue;
         }
+        let nearest = found.iter().filter(is_level).map(|other| other.gap).fold(f64::INFINITY, f64::min);
         let p = facet.seen_from(&x, origin, nodes);
         let foot = facet.foot(&p);
         let gap = foot.g.norm() - reach;
-        if !facet.is_free(&facet.closest(&p)) && gap < AS_DEEP * deepest && AS_DEEP * gap > deepest {
+        if !facet.is_free(&facet.closest(&p)) && (gap - nearest).abs() <= OFF * depth {
             let toward = foot.g.try_normalize(AS_NEAR * reach).unwrap_or(touch.normal);
             found[k] = FacetTouch { gap, toward, rim: [None; 2], goes_on: true, ..touch };
         }
@@ -189,13 +199,16 @@ fn go_on_in_plane(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], fo
 
 /// Puts remembered facets before the others, if they count and are at least half as deep as the deepest in their direction.
 fn prefer_known(of: &FacetScene, history: &[f64], found: &mut [FacetTouch]) {
+    /// The least part of the depth of the deepest.
+    const AS_DEEP: f64 = 0.5;
     let mut first = 0;
     for k in 0..found.len() {
         let touch = found[k];
         let is_deepest = |other: &FacetTouch| {
             !other.counts || other.toward.dot(&touch.toward) < ONE_DIRECTION || touch.gap < AS_DEEP * other.gap
         };
-        if touch.counts && touch.gap < 0.0 && is_known(of, history, touch.facet) && found.iter().all(is_deepest) {
+        let stays = touch.counts && touch.gap < 0.0 && known_depth(of, history, touch.facet).is_some();
+        if stays && (touch.goes_on || found.iter().all(is_deepest)) {
             found[first..=k].rotate_right(1);
             first += 1;
         }
