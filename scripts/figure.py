@@ -29,7 +29,7 @@ def table(path: Path, name: str) -> dict:
     with path.open(newline="") as file:
         for row in csv.DictReader(file):
             key = row.pop(name)
-            found.setdefault(float(row["time"]), {})[key] = {k: float(v) for k, v in row.items()}
+            found.setdefault(float(row["time"]), {})[key] = {k: float(v) for k, v in row.items() if k not in ("stage", "case", "set")}
     return found
 
 

@@ -70,7 +70,7 @@ def rows(path: Path) -> Rows:
         for row in csv.DictReader(file):
             name = row.pop("node", None) or row.pop("body")
             time_ = float(row.pop("time"))
-            found.setdefault(time_, {})[name] = {key: float(value) for key, value in row.items()}
+            found.setdefault(time_, {})[name] = {key: float(value) for key, value in row.items() if key not in ("stage", "case", "set")}
     return found
 
 

@@ -442,7 +442,7 @@ def momenta(folder: Path) -> None:
             deck.write_text(scene.deck(Q, mesh, exact))
             run(deck, [f"analysis.time_step={scene.interval / division!r}"], Path(out) / "out")
             with (Path(out) / "out" / "energy.csv").open(newline="") as file:
-                lines = [{k: float(v) for k, v in line.items()} for line in csv.DictReader(file)]
+                lines = [{k: float(v) for k, v in line.items() if k != "stage"} for line in csv.DictReader(file)]
         after = [line for line in lines if line["time"] > 1 - 1e-9]
         far = lambda keys, to: max(math.dist([line[k] for k in keys], to) for line in after)
         first = after[0]
