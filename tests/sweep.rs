@@ -131,22 +131,33 @@ links = [
 ]
 supports = [{ at = ["near", "far"], fix = ["uy", "uz"] }]
 initial = [{ at = "near", velocity = [1.0, 0.0, 0.0] }, { at = "far", velocity = [2.0, 0.0, 0.0] }]
-sets = { both = ["near", "far"] }
-output = { nodes = "both" }
+sets = { both = ["near", "far"], last = ["far"], each = ["far", "near"] }
+output = { nodes = ["both", "each", "last"] }
 "#;
     let sweep = "deck = \"deck.toml\"\n[vary]\n\"links.one.stiffness\" = [100.0]\n[collect]\n\
-                 far = { at = \"far\", quantity = \"ux\", peak = \"abs\" }\nboth = { at = \"both\", quantity = \"ux\", peak = \"abs\" }\n";
+                 far = { at = \"far\", quantity = \"ux\", peak = \"abs\" }\nboth = { at = \"both\", quantity = \"ux\", peak = \"abs\" }\n\
+                 each = { at = \"each\", quantity = \"ux\", peak = \"abs\" }\nlast = { at = \"last\", quantity = \"ux\", peak = \"abs\" }\n";
     fs::write(folder.path().join("deck.toml"), deck).unwrap();
     fs::write(folder.path().join("s.toml"), sweep).unwrap();
     let output = rdsolve(folder.path(), &["sweep", "s.toml"]);
     assert!(output.status.success() && output.stderr.is_empty(), "{}", text(&output.stderr));
     let found = rows(folder.path(), "s.out/summary.csv");
     let value = |name: &str| found[1][found[0].iter().position(|column| column == name).unwrap()].clone();
-    assert_eq!(value("far"), value("both"));
+    assert!(!value("far").is_empty());
+    assert!(["both", "each", "last"].iter().all(|set| value(set) == value("far")), "{found:?}");
     let case = rows(folder.path(), "s.out/cases.csv")[1][1].clone();
     let nodes = rows(folder.path(), &format!("s.out/{case}/nodes.csv"));
     assert_eq!(nodes[0].last().map(String::as_str), Some("set"));
-    assert!(nodes[1..].iter().all(|row| row.last().is_some_and(|set| set == "both")));
+    assert!(nodes[1..].iter().all(|row| row.last().is_some_and(|set| set.starts_with("both|each"))));
+    // One time of several nodes is no number.
+    fs::write(folder.path().join("s.toml"), sweep.replacen("peak = \"abs\" }\neach", "time = \"end\" }\neach", 1))
+        .unwrap();
+    let refused = rdsolve(folder.path(), &["sweep", "s.toml", "--collect"]);
+    assert!(
+        !refused.status.success() && text(&refused.stderr).contains("`both`, which has several nodes"),
+        "{}",
+        text(&refused.stderr)
+    );
 }
 
 /// Eight processes that fill one folder at once, three that are killed on the way, and one process alone: the same summary, to the byte.

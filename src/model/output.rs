@@ -1,6 +1,6 @@
 //! `[output]`: tables, nodes and times of output.
 
-use super::data::{Cadence, Drift, FieldFiles, FieldFormat, Model, Node, Output};
+use super::data::{BETWEEN_SETS, Cadence, Drift, FieldFiles, FieldFormat, Model, Node, Output};
 use super::places::place::Place;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
@@ -8,6 +8,7 @@ use super::values::flag;
 use base::diagnostic::At;
 use deck::output as words;
 use deck::words::{FlagOrTable, Table};
+use std::collections::BTreeSet;
 
 /// Files of fields at most, unless the deck says how many.
 const MOST_FIELDS: f64 = 200.0;
@@ -143,13 +144,20 @@ fn listed_nodes<'d>(
     }
     let mut listed: Vec<_> = spots.iter().filter(|spot| !is_body(scene, spot.node)).collect();
     listed.sort_unstable_by_key(|spot| spot.node);
-    let names = table.nodes.iter().flat_map(|list| &list.values);
-    let name_of = |span| names.clone().find(|name| std::ptr::eq(&name.span, span)).map_or("", |name| name);
-    let sets = match listed.iter().all(|spot| spot.direct) {
-        true => Vec::new(),
-        false => listed.iter().map(|spot| name_of(spot.span).to_owned()).collect(),
-    };
-    (listed.iter().map(|spot| spot.node).collect(), sets)
+    let nodes: Vec<usize> = listed.iter().map(|spot| spot.node).collect();
+    if listed.iter().all(|spot| spot.direct) {
+        return (nodes, Vec::new());
+    }
+    let mut sets = vec![String::new(); nodes.len()];
+    for name in table.nodes.iter().flat_map(|list| &list.values) {
+        let covered: BTreeSet<usize> =
+            scene.place_or_node(name).into_iter().flat_map(|place| scene.nodes_of(place)).collect();
+        for place in covered.iter().filter_map(|node| nodes.binary_search(node).ok()) {
+            let between = if sets[place].is_empty() { "" } else { BETWEEN_SETS };
+            sets[place] += &format!("{between}{}", name.value);
+        }
+    }
+    (nodes, sets)
 }
 
 /// Reads `[[drifts]]`. One with an error is left out, so that places in the list are those of the deck only in a sound one.

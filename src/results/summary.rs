@@ -4,7 +4,7 @@ use super::compare::Selector;
 use super::disk::at;
 use super::low_pass::{LowPass, TimeSampling};
 use super::result_json;
-use super::table::names_subject;
+use super::table::{SET, names_subject};
 use super::table_reader::{TableReader, fields, number, text};
 use super::tables::TABLES;
 use super::torn::torn_tables;
@@ -131,7 +131,7 @@ fn of_table(folder: &Path, file: &str) -> io::Result<Vec<ColumnSummary>> {
     let Some(time_at) = rows.column("time") else { return Ok(Vec::new()) };
     let is_number = |place: &usize| !rows.is_key(*place) && *place != time_at && rows.header[*place] != "step";
     let (keys, places): (Vec<usize>, Vec<usize>) = (
-        (0..rows.header.len()).filter(|&place| rows.is_key(place)).collect(),
+        (0..rows.header.len()).filter(|&place| rows.is_key(place) && rows.header[place] != SET).collect(),
         (0..rows.header.len()).filter(is_number).collect(),
     );
     let names: Vec<String> = places.iter().map(|&place| rows.header[place].clone()).collect();

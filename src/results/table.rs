@@ -16,6 +16,8 @@ pub const CASE: &str = "case";
 /// The name of the column of nodes.csv with the names of sets.
 pub const SET: &str = "set";
 
+pub use model::BETWEEN_SETS;
+
 /// True for a key column that names the subject of a row in any stage: where curves go on, and whatever asked for the row.
 pub fn names_subject(column: &str) -> bool {
     column != STAGE && column != SET

@@ -3,7 +3,7 @@
 use super::file::{Collected, CollectedWhen};
 use results::TABLES;
 use results::curve::{REACTION, REACTIONS, reaction_direction};
-use results::table::{CASE, SET, STAGE, TableKind, names_subject};
+use results::table::{BETWEEN_SETS, CASE, SET, STAGE, TableKind, names_subject};
 use results::table_reader::{TableReader, fields, number, text};
 use std::io;
 use std::path::Path;
@@ -68,6 +68,10 @@ struct Search<'w> {
     /// The place of its column.
     column: usize,
     best: Option<f64>,
+    /// The first key of the first row taken.
+    subject: Option<String>,
+    /// True if other rows taken have another.
+    has_others: bool,
 }
 
 fn of_table(path: &Path, wanted: &[&Collected]) -> io::Result<Vec<Option<f64>>> {
@@ -75,7 +79,10 @@ fn of_table(path: &Path, wanted: &[&Collected]) -> io::Result<Vec<Option<f64>>> 
     let Some(time) = rows.column("time") else { return Ok(vec![None; wanted.len()]) };
     let mut searches: Vec<(usize, Search)> = Vec::new();
     for (place, &wanted) in wanted.iter().enumerate() {
-        searches.extend(rows.column(&wanted.quantity).map(|column| (place, Search { wanted, column, best: None })));
+        searches.extend(
+            rows.column(&wanted.quantity)
+                .map(|column| (place, Search { wanted, column, best: None, subject: None, has_others: false })),
+        );
     }
     // The stage and the load case of a row are part of its time, not of its subject.
     let says_what = |&key: &usize| rows.is_key(key) && names_subject(&rows.header[key]) && rows.header[key] != CASE;
@@ -96,8 +103,17 @@ fn of_table(path: &Path, wanted: &[&Collected]) -> io::Result<Vec<Option<f64>>> 
         let field = |place: usize| ends.get(place).map(|&(from, to)| &row[from..to]);
         for (_, search) in &mut searches {
             let Some(value) = field(search.column).filter(|_| search.is_about(&field, &keys, others)) else { continue };
+            if let Some(subject) = keys.first().and_then(|&key| field(key)).map(text) {
+                search.has_others |= *search.subject.get_or_insert_with(|| subject.to_string()) != subject;
+            }
             search.see(|| field(time).map_or(f64::NAN, number), number(value));
         }
+    }
+    if let Some((_, search)) = searches.iter().find(|(_, search)| search.has_others && !search.takes_extreme()) {
+        let Collected { name, at, .. } = search.wanted;
+        let message =
+            format!("`{name}` asks for one time of `{at}`, which has several nodes: give `peak`, or name a node");
+        return Err(io::Error::other(message));
     }
     let mut found = vec![None; wanted.len()];
     searches.into_iter().for_each(|(place, search)| found[place] = search.best);
@@ -105,6 +121,11 @@ fn of_table(path: &Path, wanted: &[&Collected]) -> io::Result<Vec<Option<f64>>> 
 }
 
 impl Search<'_> {
+    /// True where the number is the extreme of all rows.
+    fn takes_extreme(&self) -> bool {
+        !matches!(self.wanted.when, CollectedWhen::End | CollectedWhen::Time(_))
+    }
+
     /// Takes the value of a row, if it is the one that is wanted so far.
     fn see(&mut self, time: impl Fn() -> f64, value: f64) {
         let takes = |best: f64| match self.wanted.when {
@@ -135,7 +156,8 @@ impl Search<'_> {
             Some(stage) => stages.is_some_and(|place| says(place, stage)),
             None => true,
         };
-        let in_set = sets.is_some_and(|place| says(place, &self.wanted.at));
+        let lists = |names: &[u8]| text(names).split(BETWEEN_SETS).any(|name| name == self.wanted.at);
+        let in_set = sets.and_then(field).is_some_and(lists);
         let is_subject =
             in_set || keys.is_empty() || says(keys[0], &self.wanted.at) || keys.len() > 1 && self.is_all(field, keys);
         in_stage && is_subject

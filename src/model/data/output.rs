@@ -3,6 +3,9 @@
 use super::step_length::StepLength;
 use deck::output::{ContactRows, SectionPlaces};
 
+/// What stands between the names of the sets of a node.
+pub const BETWEEN_SETS: &str = "|";
+
 /// The tables and fields that the run writes.
 #[derive(Debug, Clone)]
 pub struct Output {
@@ -10,7 +13,7 @@ pub struct Output {
     pub units: Option<String>,
     /// Nodes whose histories go to nodes.csv, in deck order (bodies are not among them).
     pub nodes: Vec<usize>,
-    /// For each of them the name under which `[output] nodes` lists it; empty if it lists points alone, or all.
+    /// For each of them the names under which `[output] nodes` lists it; empty if it lists points alone, or all.
     pub sets: Vec<String>,
     /// The relative displacements in drifts.csv, in deck order.
     pub drifts: Vec<Drift>,

@@ -13,6 +13,7 @@ pub use join::{Alone, Matched, Worst};
 pub use select::{ColumnTolerance, Selector, size};
 
 use super::disk::at;
+use super::table::SET;
 use super::table_reader::{TableReader, fields, number};
 use base::text_file::read_regular;
 use cursor::{Cursor, Pick};
@@ -296,7 +297,8 @@ fn pick(rows: &TableReader, shared: &[String], values: &[&str], has_time: bool, 
     // A table without a time has no frames, whatever its column `step` counts.
     let (step, time) = (place("step").filter(|_| has_time), place("time").filter(|_| has_time));
     let is_value = |column: &String| matches!(column.as_str(), "step" | "time") || values.contains(&column.as_str());
-    let keys = shared.iter().filter(|column| !is_value(column)).filter_map(|column| place(column)).collect();
+    let keys =
+        shared.iter().filter(|column| !is_value(column) && *column != SET).filter_map(|column| place(column)).collect();
     Pick { step, time, frequency, keys, values: values.iter().filter_map(|column| place(column)).collect() }
 }
 

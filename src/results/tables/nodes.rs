@@ -26,7 +26,7 @@ pub static TABLE: TableKind = TableKind {
         &ANGULAR_ACCELERATION,
         &[Column::key(
             SET,
-            "the first name in `[output] nodes` that covers the node; only where one is a set, a group or a part",
+            "the names in `[output] nodes` that cover the node, with `|` between them; only where one is a set, a group or a part",
         )],
     ],
     wanted: |model| !model.output.nodes.is_empty(),
