@@ -9,7 +9,7 @@ use crate::timeline::Timeline;
 use crate::{
     base_motion, bodies, contacts, distributing, equations, harmonics, joints, linear, links, loads, material_cards,
     mesh_text, model_changes, nodal_axes, output, parts, pretension, property_cards, single_loads, spread_loads,
-    stage_text, supports, surface_ties, temperatures, ties,
+    stage_text, step_cards, supports, surface_ties, temperatures, ties,
 };
 use std::collections::{BTreeSet, HashMap};
 
@@ -30,7 +30,8 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
     single_loads::join(im, &mesh);
     harmonics::prepare(im);
     linear::end_loads_before_perturbations(im);
-    material_cards::say_expansions(im);
+    step_cards::carry_scaled_masses(im);
+    material_cards::say_temperatures(im, &mesh);
     property_cards::refuse_turned_axes(im);
     let timeline = Timeline::new(im);
     let mut build = Build {

@@ -1,6 +1,7 @@
 //! The content of a file, before sets and instances are resolved.
 
 use crate::contact_content::{ContactCards, ModelChange};
+use crate::material_tables::MaterialTable;
 use crate::scopes::NamedTarget;
 use crate::tied_nodes::NodalAxes;
 use crate::time_formula::TimeFormula;
@@ -27,8 +28,8 @@ pub struct MaterialCard {
     pub rate: Option<[f64; 2]>,
     /// Coefficient of thermal expansion, and its line.
     pub expansion: Option<(f64, usize)>,
-    /// True where it depends on temperature.
-    pub has_expansions: bool,
+    /// Values that depend on temperature.
+    pub tables: Vec<MaterialTable>,
     /// The line of `*NO COMPRESSION`, for bars under tension alone.
     pub no_compression: Option<usize>,
 }
@@ -36,8 +37,6 @@ pub struct MaterialCard {
 /// The materials of a file.
 #[derive(Debug, Default)]
 pub struct MaterialCards {
-    /// The temperature at the start, if there is one.
-    pub start_temperature: Option<f64>,
     /// The materials; the last one is still being read.
     pub list: Vec<MaterialCard>,
 }

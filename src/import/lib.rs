@@ -36,6 +36,7 @@ mod linear;
 mod links;
 mod loads;
 mod material_cards;
+mod material_tables;
 mod mesh_cards;
 mod mesh_makers;
 mod mesh_text;
@@ -117,7 +118,6 @@ pub fn import(text: &mut Text, options: &ImportOptions) -> Imported {
     let scopes = Scopes { outer_offset: count * step, step, largest, ..Scopes::default() };
     let dialect = options.dialect.or_else(|| Dialect::of(text, &blocks));
     let mut im = Importer::new(text, Verdicts::new(keywords), dialect, scopes);
-    im.materials.start_temperature = material_cards::start_temperature(&blocks);
     let rows: Vec<_> = blocks.iter().map(|block| keywords::row(&block.keyword.key())).collect();
     for (block, row) in blocks.iter().zip(&rows) {
         read(&mut im, block, *row);

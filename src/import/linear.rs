@@ -52,16 +52,19 @@ pub fn fault_of_perturbations(im: &Importer, is_linear: bool) -> Option<&'static
     let timed = || steps.iter().filter(|step| step.advances_time());
     let goes_back = timed().skip_while(|step| !perturbs(step)).any(|step| !perturbs(step));
     let moves = timed().flat_map(|step| &step.supports).any(|support| support.value != 0.0);
+    let is_driven = !im.connectors.drives.is_empty();
+    let heats = timed().any(|step| perturbs(step) && !step.temperatures.is_empty());
     match im.dialect {
         _ if timed().count() < 2 || !timed().any(perturbs) => None,
-        Some(Dialect::Abaqus) if is_linear && !goes_back && !moves => None,
+        Some(Dialect::Abaqus) if is_linear && !goes_back && !moves && !is_driven && !heats => None,
         None => Some(
             "a perturbation has its own loads alone in Abaqus, and is about the loaded state in CalculiX: say --from \
              abaqus or --from calculix",
         ),
         Some(Dialect::Calculix) => Some("a perturbation is about the loaded state: give each step a file"),
         Some(Dialect::Abaqus) => Some(
-            "perturbations follow linear static steps, without moved supports or modes beside them: give each step a file",
+            "perturbations follow linear static steps, without moved supports, driven connectors, temperatures of their own \
+             or modes beside them: give each step a file",
         ),
     }
 }

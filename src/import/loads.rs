@@ -190,22 +190,48 @@ pub fn in_time(table: DeckTable, law: Option<&TimeLaw>) -> DeckTable {
     table.in_stages(law.stages.as_deref())
 }
 
-/// Adds rigid motions at the start.
-fn rotations(build: &mut Build) {
+/// Adds rigid motions at the start. Returns their nodes; refuses lines that share some.
+fn rotations(build: &mut Build) -> BTreeSet<u64> {
+    let mut moving = BTreeSet::new();
     for card in build.im.steps.rotations.clone() {
-        let nodes = build.nodes(&card.nodes).into_iter().filter(|node| build.mesh.used.contains(node)).collect();
+        if card.velocity == Vec3::zeros() && card.spin == Vec3::zeros() {
+            build.im.ignore(card.line, "all begins at rest");
+            continue;
+        }
+        let nodes = build.nodes(&card.nodes);
+        let nodes = pretension::with_ends(build, nodes);
+        let nodes: BTreeSet<u64> = nodes.into_iter().filter(|node| build.mesh.used.contains(node)).collect();
+        if nodes.is_empty() {
+            if !build.im.is_incomplete() {
+                build.im.refuse(card.line, &format!("no node of `{}` has an element that could move", card.nodes.name));
+            }
+            continue;
+        }
+        refuse_moved_twice(build, card.line, nodes.intersection(&moving).next().copied());
         let names = build.names(&nodes, std::slice::from_ref(&card.nodes), "moving");
-        let table = DeckTable::new("initial", 0).with_lines([card.line]).names("at", &names);
-        let table =
-            if card.velocity == Vec3::zeros() { table } else { table.numbers("velocity", card.velocity.as_slice()) };
-        let table = table.numbers("angular_velocity", card.spin.as_slice());
-        build.deck.add(table.numbers("about", card.about.as_slice()));
+        moving.extend(nodes);
+        let mut table = DeckTable::new("initial", 0).with_lines([card.line]).names("at", &names);
+        if card.velocity != Vec3::zeros() {
+            table = table.numbers("velocity", card.velocity.as_slice());
+        }
+        if card.spin != Vec3::zeros() {
+            table = table.numbers("angular_velocity", card.spin.as_slice()).numbers("about", card.about.as_slice());
+        }
+        build.deck.add(table);
+    }
+    moving
+}
+
+/// Refuses a velocity at the start of a node that has one by another line.
+fn refuse_moved_twice(build: &mut Build, line: usize, node: Option<u64>) {
+    if let Some(node) = node {
+        build.im.refuse(line, &format!("node {node} has a rotating velocity by another line: give it one of them"));
     }
 }
 
 /// Adds velocities at the start.
 pub fn velocities(build: &mut Build) {
-    rotations(build);
+    let moving = rotations(build);
     let mut of_node: BTreeMap<u64, ([f64; 6], BTreeSet<usize>)> = BTreeMap::new();
     let all = build.im.steps.velocities.clone();
     for (line, target, dof, value) in &all {
@@ -213,7 +239,9 @@ pub fn velocities(build: &mut Build) {
             build.im.ignore(*line, "all begins at rest");
         }
         let nodes = build.nodes(target);
-        for node in pretension::with_ends(build, nodes) {
+        let nodes = pretension::with_ends(build, nodes);
+        refuse_moved_twice(build, *line, nodes.iter().find(|node| moving.contains(node)).copied());
+        for node in nodes {
             if build.mesh.used.contains(&node) {
                 let entry = of_node.entry(node).or_default();
                 entry.0[*dof] = *value;

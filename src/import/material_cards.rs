@@ -2,8 +2,10 @@
 
 use crate::deck_text::{DeckTable, inline, list, number, vector};
 use crate::file_content::MaterialCard;
+use crate::flat_mesh::FlatMesh;
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
+use crate::material_tables::{self, MaterialTable, MaterialValue};
 use base::text_file::Word;
 
 /// `*MATERIAL`.
@@ -20,38 +22,11 @@ fn at_hand<'m>(im: &'m mut Importer, line: usize) -> Option<&'m mut MaterialCard
     im.materials.list.last_mut()
 }
 
-/// The temperature at the start, if the file gives one to all.
-pub fn start_temperature(blocks: &[KeywordBlock]) -> Option<f64> {
-    let is_heat = |block: &&KeywordBlock| {
-        let kind = block.keyword.value("TYPE").unwrap_or_default();
-        block.keyword.key() == "INITIALCONDITIONS" && kind.eq_ignore_ascii_case("TEMPERATURE")
-    };
-    let lines = blocks.iter().filter(is_heat).flat_map(|block| &block.data);
-    let mut values = lines.filter_map(|data| data.words.get(1)?.fortran_number());
-    let first = values.next()?;
-    values.all(|value| value == first).then_some(first)
-}
-
-/// The values of a row, whose temperature stands behind so many of them: those at the start, linear between rows.
-fn row_at_start(im: &mut Importer, block: &KeywordBlock, count: usize) -> Vec<f64> {
-    let rows: Vec<Vec<f64>> = block.data.iter().map(|data| im.numbers(data)).collect();
-    let at = |row: &Vec<f64>| row.get(count).copied().unwrap_or(0.0);
-    if rows.len() < 2 {
-        return rows.into_iter().next().unwrap_or_default();
-    }
-    let Some(start) = im.materials.start_temperature else {
-        im.change(block.keyword.line, "values that depend on temperature: those of the first row are taken");
-        return rows.into_iter().next().unwrap_or_default();
-    };
-    let how = format!("values that depend on temperature: those at {start} are taken, where all begins");
-    im.change(block.keyword.line, &how);
-    let after = rows.partition_point(|row| at(row) <= start);
-    match (after.checked_sub(1).map(|last| &rows[last]), rows.get(after)) {
-        (Some(a), Some(b)) => {
-            let share = (start - at(a)) / (at(b) - at(a));
-            a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect()
-        }
-        (a, b) => a.or(b).cloned().unwrap_or_default(),
+/// Reads a table of values into the material at hand.
+fn read(im: &mut Importer, block: &KeywordBlock, what: MaterialValue) {
+    let table = MaterialTable::read(im, block, what);
+    if let Some(material) = at_hand(im, block.keyword.line) {
+        material.take(table);
     }
 }
 
@@ -63,14 +38,10 @@ pub fn elastic(im: &mut Importer, block: &KeywordBlock) {
     {
         return im.refuse(line, "rdsolve has isotropic elastic materials alone");
     }
-    let values = row_at_start(im, block, 2);
-    let [Some(&modulus), ratio] = [values.first(), values.get(1)] else {
+    if block.data.iter().all(|data| data.filled() == 0) {
         return im.refuse(line, "*ELASTIC needs Young's modulus");
-    };
-    let elastic = [modulus, ratio.copied().unwrap_or(0.0)];
-    if let Some(material) = at_hand(im, line) {
-        material.elastic = Some(elastic);
     }
+    read(im, block, MaterialValue::Elastic);
 }
 
 /// `*PLASTIC`.
@@ -81,25 +52,15 @@ pub fn plastic(im: &mut Importer, block: &KeywordBlock) {
     if !is_kinematic && !"ISOTROPIC".starts_with(&hardening) {
         return im.refuse(line, "hardening is isotropic or kinematic in rdsolve; other laws are not translated");
     }
-    let rows: Vec<Vec<f64>> = block.data.iter().map(|data| im.numbers(data)).collect();
-    let at = |row: &[f64], i: usize| row.get(i).copied().unwrap_or(0.0);
-    let first = rows.first().map_or(0.0, |row| at(row, 2));
-    let plastic: Vec<[f64; 2]> =
-        rows.iter().filter(|row| at(row, 2) == first).map(|row| [at(row, 0), at(row, 1)]).collect();
-    if plastic.len() < rows.len() {
-        im.change(line, "values that depend on temperature: those of the first temperature are taken");
-    }
-    if let Some(material) = at_hand(im, line) {
-        (material.plastic, material.is_kinematic) = (plastic, is_kinematic);
+    read(im, block, MaterialValue::Plastic);
+    if let Some(material) = im.materials.list.last_mut() {
+        material.is_kinematic = is_kinematic;
     }
 }
 
 /// `*DENSITY`.
 pub fn density(im: &mut Importer, block: &KeywordBlock) {
-    let density = row_at_start(im, block, 1).first().copied();
-    if let Some(material) = at_hand(im, block.keyword.line) {
-        material.density = density;
-    }
+    read(im, block, MaterialValue::Density);
 }
 
 /// `*NO COMPRESSION`: bars of this material take tension alone.
@@ -116,12 +77,7 @@ pub fn expansion(im: &mut Importer, block: &KeywordBlock) {
     if block.keyword.value("TYPE").is_some_and(is_other) {
         return im.refuse(line, "rdsolve has isotropic expansion alone");
     }
-    let expansion = block.data.first().and_then(|data| im.number_at(data, 0)).map(|factor| (factor, line));
-    let rows = block.data.len();
-    if let Some(material) = at_hand(im, line) {
-        material.expansion = expansion;
-        material.has_expansions = rows > 1;
-    }
+    read(im, block, MaterialValue::Expansion);
 }
 
 /// `*DAMPING`.
@@ -153,27 +109,23 @@ pub fn rate_dependent(im: &mut Importer, block: &KeywordBlock) {
     if !"POWERLAW".starts_with(&kind) {
         return im.refuse(line, "of the laws of rate dependence rdsolve has POWER LAW, by rate and exponent");
     }
-    let values = row_at_start(im, block, 2);
-    let [rate, exponent] = [0, 1].map(|at| values.get(at).copied().unwrap_or(1.0));
-    if let Some(material) = at_hand(im, line) {
-        material.rate = Some([rate, exponent]);
-    }
+    read(im, block, MaterialValue::Rate);
 }
 
-/// Says what becomes of coefficients of expansion.
-pub fn say_expansions(im: &mut Importer) {
-    let is_heated = im.is_heated();
-    for material in im.materials.list.clone() {
-        let Some((_, line)) = material.expansion else { continue };
-        if !is_heated {
-            im.ignore(line, "no temperature changes");
-        } else if material.has_expansions {
-            im.change(line, "values that depend on temperature: those of the first row are taken");
-        }
+/// Takes the values of materials at the start, and says what becomes of temperatures and of coefficients of expansion.
+pub fn say_temperatures(im: &mut Importer, mesh: &FlatMesh) {
+    let chosen = material_tables::take_start(im, mesh);
+    if im.is_heated() {
+        return;
     }
-    if !is_heated {
-        let lines: Vec<usize> = im.steps.first_temperatures.iter().map(|line| line.line).collect();
-        lines.into_iter().for_each(|line| im.ignore(line, "no temperature changes"));
+    let expansions: Vec<usize> = im.materials.list.iter().filter_map(|material| Some(material.expansion?.1)).collect();
+    expansions.into_iter().for_each(|line| im.ignore(line, "no temperature changes"));
+    let lines: Vec<usize> = im.steps.first_temperatures.iter().map(|line| line.line).collect();
+    for line in lines {
+        match chosen.contains(&line) {
+            true => im.change(line, "it chooses values of materials alone, for no temperature changes"),
+            false => im.ignore(line, "no temperature changes"),
+        }
     }
 }
 

@@ -105,6 +105,9 @@ fn read_beam(im: &mut Importer, block: &KeywordBlock, is_general: bool) {
         "HEX" if sizes.len() >= 2 => thin_sections::hexagon(sizes[0], sizes[1]),
         "ARBITRARY" => thin_sections::arbitrary(&rows),
         "TRAPEZOID" if sizes.len() >= 4 => thin_sections::trapezoid(sizes),
+        "CHANNEL" | "HAT" if im.dialect == Some(Dialect::Calculix) => {
+            Err(format!("CalculiX has no SECTION={word}: give its walls as solids, or say --from abaqus"))
+        }
         "CHANNEL" => thin_sections::channel(sizes),
         "HAT" => thin_sections::hat(sizes),
         _ => shape(&word, sizes, im.dialect),
@@ -142,6 +145,15 @@ fn read_beam(im: &mut Importer, block: &KeywordBlock, is_general: bool) {
     im.sections.push(card);
 }
 
+/// How the sizes of a channel are taken.
+const CHANNEL: &str = "the sizes are taken in this order: node over the lower side, height, lower width, upper width, lower thickness, upper \
+                       thickness, web, node from the back of the web; flanges point along +1";
+/// How the sizes of a hat are taken.
+const HAT: &str = "the sizes are taken in this order: node over the lower side, height, lower width, top width, rim width, top thickness, rim \
+                   thickness, web thickness";
+/// What walls along middle lines leave out.
+const MIDDLE_LINES: &str = "walls count along their middle lines, and the shear centre is the centroid";
+
 /// Tells how the deck's section of this shape differs.
 fn say_changes(im: &mut Importer, line: usize, word: &str, sizes: &[f64]) {
     let how = match (word, im.dialect) {
@@ -153,8 +165,9 @@ fn say_changes(im: &mut Importer, line: usize, word: &str, sizes: &[f64]) {
             "the shear centre of a box of unlike walls is its centroid"
         }
         ("ARBITRARY", _) => "the shear centre is the centroid",
-        ("CHANNEL", _) if sizes[2] == sizes[3] && sizes[4] == sizes[5] => return,
-        ("CHANNEL" | "HAT", _) => "walls count along their middle lines, and the shear centre is the centroid",
+        ("CHANNEL", _) if sizes[2] == sizes[3] && sizes[4] == sizes[5] => CHANNEL,
+        ("CHANNEL", _) => return im.change(line, &format!("{CHANNEL}; {MIDDLE_LINES}")),
+        ("HAT", _) => return im.change(line, &format!("{HAT}; {MIDDLE_LINES}")),
         ("TRAPEZOID", _) => "the torsion constant is A⁴/(40 I), with I about the centroid; the shear centre is there",
         _ => return,
     };

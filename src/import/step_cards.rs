@@ -119,6 +119,29 @@ pub fn fixed_mass_scaling(im: &mut Importer, block: &KeywordBlock) {
     im.change(line, "elements get rotary inertia first, and mass where that is not enough");
 }
 
+/// Carries scaled masses on to later explicit steps. Refuses steps in time of a file that have other masses, for a deck has one set.
+pub fn carry_scaled_masses(im: &mut Importer) {
+    let mut first: Option<Option<f64>> = None;
+    let mut unlike = Vec::new();
+    for step in &mut im.steps.list {
+        let Some((StepProcedure::Dynamic { is_explicit, mass_scaling, .. }, line)) = &mut step.procedure else {
+            continue;
+        };
+        if *is_explicit && mass_scaling.is_none() {
+            *mass_scaling = first.flatten();
+        }
+        if *first.get_or_insert(*mass_scaling) != *mass_scaling {
+            unlike.push(*line);
+        }
+    }
+    for line in unlike {
+        im.refuse(
+            line,
+            "masses are scaled from the first step in time on, alike in all: give *FIXED MASS SCALING there",
+        );
+    }
+}
+
 /// `*MODAL DYNAMIC`.
 pub fn modal_dynamic(im: &mut Importer, block: &KeywordBlock) {
     let [first, second] = times(im, block);

@@ -117,8 +117,11 @@ pub fn channel(sizes: &[f64]) -> Result<KeysAndCentroid, String> {
     }
     let (back, top) = (0.5 * web, height - 0.5 * above);
     let points = [[upper, top], [back, top], [back, 0.5 * below], [lower, 0.5 * below]];
-    let (mut keys, [y, z]) = walls(&points, &[above, web, below], false);
+    let (mut keys, [mut y, z]) = walls(&points, &[above, web, below], false);
     if lower == upper && below == above {
+        // The centroid of a web over the whole height and of two plates beside it.
+        let [back, plates] = [height * web, 2.0 * (lower - web) * below];
+        y = 0.5 * (back * web + plates * (lower + web)) / (back + plates);
         keys = vec![
             ("shape", Word("c")),
             ("height", Number(height)),

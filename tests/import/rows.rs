@@ -506,18 +506,18 @@ fn tables_of_formulas_between_their_points() {
     }
 }
 
-/// Values at the temperature of the start: between rows, beyond the last one, and of the first one where the file gives no temperature.
+/// Values at the temperature of the start: between rows, beyond the last one, and of the first one where the file does not give one temperature
+/// to all nodes of the material. All tables of a material take values at this temperature.
 #[test]
 fn materials_at_the_first_temperature() {
-    let rows = ("1e9, 0.3", "1e9, 0.3, 20.\n5e8, 0.2, 120.");
-    let of = |start: &str, modulus: &str| {
-        let heat = format!("*INITIAL CONDITIONS, TYPE=TEMPERATURE\ntip, {start}\n*BOUNDARY");
-        has(BEAM, &[rows, ("*BOUNDARY", &heat)], None, &format!("youngs_modulus = {modulus}\npoisson_ratio = "));
-    };
-    of("45.", "8.75e8");
-    of("20.", "1e9");
-    of("300.", "5e8");
-    has(BEAM, &[rows], None, "youngs_modulus = 1e9\npoisson_ratio = 0.3\n");
+    let rows = (
+        "1e9, 0.3",
+        "1e9, 0.3, 20.\n5e8, 0.2, 120.\n*PLASTIC\n4e6, 0., 20.\n6e6, 0.1, 20.\n2e6, 0., 120.\n4e6, 0.1, 120.",
+    );
+    let heat = |lines: &str| format!("*INITIAL CONDITIONS, TYPE=TEMPERATURE\n{lines}\n*BOUNDARY");
+    let heat = heat("1, 45.\n2, 45.");
+    has(BEAM, &[rows, ("*BOUNDARY", &heat)], None, "youngs_modulus = 8.75e8\npoisson_ratio = 0.275\n");
+    has(BEAM, &[rows, ("*BOUNDARY", &heat)], None, "hardening = [[0.0, 3500000.0], [0.1, 5500000.0]]\n");
 }
 
 /// A rigid motion at the start is one table with its axis, and mass scaling of all elements a key of the scheme.
