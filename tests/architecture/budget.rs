@@ -8,7 +8,7 @@ const BUDGET: [(&str, usize); 11] = [
     ("linear", 4270),
     ("mechanics", 36_410),
     ("deck", 5440),
-    ("import", 11_410),
+    ("import", 11_510),
     ("model", 27_870),
     ("solve", 36_340),
     ("results", 11_550),
