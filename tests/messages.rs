@@ -785,7 +785,10 @@ fn materials_of_polygons() {
         section(&with(", material = \"steel\""), &[]),
         section(&with(""), &[none]),
         section(&with(""), &[("poisson_ratio = 0.3", "poisson_ratio = 0.4995")]),
-        section(&with(""), &[("density = 7850.0", "density = 7850.0\nyield_stress = 2e8")]),
+        section(
+            &with(""),
+            &[("model = \"elastic\"", "model = \"elastic-plastic\"\nyield_stress = 2e8\nhardening_modulus = 1e9")],
+        ),
         section(&format!("{}\nbars = [{{ material = \"steel\", area = 1e-4, at = [0.0, 0.0] }}]", with("")), &[]),
         section(&with("").replace("\"polygons\"", "\"circle\"\nradius = 0.1"), &[]),
     ];

@@ -191,11 +191,12 @@ impl<'a, 'd> Sections<'a, 'd> {
         let settings = PolygonSettings { axis, mesh_size };
         let made = materials.and_then(|materials| meshed_section(section, polygons, &materials, settings, report));
         let number = made.map(|made| {
-            if self.facts.iter().all(|known| known.name != name.value) {
-                self.facts.push(SectionFacts { name: name.value.clone(), ..made.facts });
+            let (name, material) = (name.value.clone(), made_of.map(|made_of| made_of.value.clone()));
+            if self.facts.iter().all(|known| (&known.name, &known.material) != (&name, &material)) {
+                self.facts.push(SectionFacts { name, material, ..made.facts.clone() });
             }
-            self.stresses.push(made.stresses);
-            self.stiffnesses.push(if shear { made.stiffness } else { made.stiffness.without_shear() });
+            self.stresses.push(made.stresses.clone());
+            self.stiffnesses.push(if shear { made.stiffness.clone() } else { made.stiffness.without_shear() });
             self.stiffnesses.len() - 1
         });
         self.known.insert(key, number);

@@ -114,7 +114,9 @@ fn pilot_runs_share_long_steps() {
     assert!(number("/accuracy/pilot_runs") >= 2.0, "{result}");
     let of_pilots = number("/accuracy/pilot_steps") / number("/accuracy/pilot_runs");
     assert!(of_pilots < 0.4 * number("/counts/steps"), "{of_pilots}");
-    assert!(number("/step_error/tolerance") <= number("/step_error/asked"), "{result}");
+    // The tolerance falls once on the way, and the run is not made again.
+    let of_asked = number("/step_error/tolerance") / number("/step_error/asked");
+    assert!(of_asked > 0.25 && of_asked < 0.9 && number("/step_error/other_runs") == 0.0, "{result}");
     // Half of the true error, and 1.5 times the error asked for.
     let estimate = number("/step_error/estimate");
     assert!(estimate > 0.5e-3 && estimate < 1.5e-3, "{result}");

@@ -196,6 +196,13 @@ fn an_error_asked_for_goes_on_where_it_was_stopped() {
     let sets =
         ["analysis.accuracy=1e-3", "analysis.time_step=\"auto\"", "expect=[]", "integrator={scheme=\"esdirk3\"}"];
     stopped_and_whole("flying_beam", &sets.map(|set| ["--set", set]).concat(), 6);
+    // The tolerance falls on the way, and the rest of the run has to know.
+    let mesh = ["beams.0.elements=1", "beams.0.order=2"];
+    stopped_and_whole(
+        "block_on_cantilever",
+        &[&sets[..], &mesh].concat().iter().flat_map(|set| ["--set", set]).collect::<Vec<_>>(),
+        6,
+    );
 }
 
 #[test]

@@ -279,6 +279,25 @@ fn a_mass_on_the_axis_has_no_nodes_beside_it() {
     }
 }
 
+/// A section of two beams of two materials has the numbers of both.
+#[test]
+fn each_material_has_its_numbers() {
+    let keys = polygons(&[(&rectangle(0.06, 0.1), "")], "");
+    let model = read_deck(&format!(
+        "analysis = {{ kind = \"static\", end_time = 1.0, time_step = 1.0 }}\n\
+         materials.steel = {{ model = \"elastic\", youngs_modulus = 2e11, poisson_ratio = 0.3 }}\n\
+         materials.soft = {{ model = \"elastic\", youngs_modulus = 1e10, poisson_ratio = 0.3 }}\n\
+         points = {{ a = [0.0, 0.0, 0.0], b = [2.0, 0.0, 0.0], c = [4.0, 0.0, 0.0] }}\nsections.s = {{ {keys} }}\n\
+         [[beams]]\nname = \"one\"\npath = [\"a\", \"b\"]\nelements = 1\nsection = \"s\"\nmaterial = \"steel\"\norientation = [0.0, 1.0, 0.0]\n\
+         [[beams]]\nname = \"two\"\npath = [\"b\", \"c\"]\nelements = 1\nsection = \"s\"\nmaterial = \"soft\"\norientation = [0.0, 1.0, 0.0]\n\
+         [[supports]]\nat = \"a\"\nfix = \"all\"\n[[loads]]\nat = \"c\"\nforce = [1.0, 0.0, 0.0]\n"
+    ));
+    let [steel, soft] = model.origin.sections.as_slice() else { panic!("two sections of facts") };
+    assert_eq!([&steel.material, &soft.material].map(|of| of.as_deref()), [Some("steel"), Some("soft")]);
+    let ratio = steel.stiffness.N[(0, 0)] / soft.stiffness.N[(0, 0)];
+    assert!((ratio / 20.0 - 1.0).abs() < 1e-12, "rounding: {ratio}");
+}
+
 /// Extreme stresses of a rectangle by polygons and by the series.
 #[test]
 fn stresses_of_a_rectangle_are_those_of_the_series() {

@@ -138,6 +138,8 @@ pub struct Origin {
 pub struct SectionFacts {
     /// Its name.
     pub name: String,
+    /// The material of the beam, of polygons without one of their own.
+    pub material: Option<String>,
     /// Number of triangles.
     pub triangles: usize,
     /// Area.

@@ -22,6 +22,7 @@ use nalgebra::Matrix3;
 use outlines::{Outlines, PolygonPoints};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
+use std::sync::{Arc, Mutex};
 
 /// Entries of the matrix smaller than this, over the root of the product of their diagonals, are errors of the mesh.
 const NO_COUPLING: f64 = 1e-6;
@@ -36,7 +37,7 @@ const MOST_RATIO: f64 = 0.499;
 const RE_ENTRANT: f64 = 1.25 * PI;
 
 /// The material of a polygon.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PolygonMaterial {
     /// Stresses from the strains of a triangle.
     pub elasticity: Mat6,
@@ -49,7 +50,7 @@ pub(super) struct PolygonMaterial {
 }
 
 /// The settings of the section.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PolygonSettings {
     /// Place of the beam's axis; `None` for the centroid.
     pub axis: Option<[f64; 2]>,
@@ -65,7 +66,23 @@ pub(super) struct MeshedSection {
     pub stresses: Option<SectionStresses>,
     /// Its numbers for people.
     pub facts: SectionFacts,
+    /// The mesh size over that by default.
+    coarseness: f64,
 }
+
+/// All that a section follows from.
+#[derive(PartialEq)]
+struct Asked {
+    points: Vec<PolygonPoints>,
+    materials: Vec<PolygonMaterial>,
+    settings: PolygonSettings,
+}
+
+/// Sections computed last, as each stage and each plan of a deck asks for them again.
+static SOLVED: Mutex<Vec<(Asked, Arc<MeshedSection>)>> = Mutex::new(Vec::new());
+
+/// Number of sections that are kept: those of one deck.
+const KEPT: usize = 16;
 
 /// A polygon of the deck with its points.
 type DeckPolygon = At<Table<words::SectionPolygon>>;
@@ -118,7 +135,7 @@ fn plain_material<'d>(
         return report.error_with(
             &ratio.span,
             message,
-            format!("take {MOST_RATIO}, which changes stiffness by less than 0.1 %"),
+            format!("take {MOST_RATIO}: finite elements of nearly constant volume lock"),
         );
     }
     let density = materials.density_if(needs_mass, name, material, what, report)?;
@@ -195,9 +212,40 @@ pub(super) fn meshed_section<'d>(
     materials: &[PolygonMaterial],
     settings: PolygonSettings,
     report: &mut Report<'d>,
-) -> Option<MeshedSection> {
+) -> Option<Arc<MeshedSection>> {
     let points = polygon_points((owner, polygons), report)?;
-    let outlines = match Outlines::new(&points) {
+    let asked = Asked { points, materials: materials.to_vec(), settings };
+    let find = |solved: &[(Asked, Arc<MeshedSection>)]| {
+        solved.iter().find(|(other, _)| *other == asked).map(|(_, made)| Arc::clone(made))
+    };
+    let made = match SOLVED.lock().ok().and_then(|solved| find(&solved)) {
+        Some(made) => made,
+        None => {
+            let made = Arc::new(solve(section, (owner, polygons), &asked, report)?);
+            if let Ok(mut solved) = SOLVED.lock() {
+                let excess = (solved.len() + 1).saturating_sub(KEPT);
+                solved.drain(..excess);
+                solved.push((asked, Arc::clone(&made)));
+            }
+            made
+        }
+    };
+    if let Some(place) = section.values.place("mesh_size").filter(|_| made.coarseness > COARSE) {
+        let times = short(made.coarseness);
+        let message = format!("`mesh_size` is {times} times that by default in a polygon of {}", owner.what);
+        report.warn(place, message, "torsion and shear may err by per cent: leave it out, or lower it until they stay");
+    }
+    Some(made)
+}
+
+/// Meshes the section and computes it.
+fn solve<'d>(
+    section: &'d At<OneOf<words::Section>>,
+    (owner, polygons): (&Owner<'d>, &'d [DeckPolygon]),
+    Asked { points, materials, settings }: &Asked,
+    report: &mut Report<'d>,
+) -> Option<MeshedSection> {
+    let outlines = match Outlines::new(points) {
         Ok(outlines) => outlines,
         Err(fault) => {
             let message = format!("polygon {} of {} {}", fault.polygon + 1, owner.what, fault.message);
@@ -208,11 +256,6 @@ pub(super) fn meshed_section<'d>(
         Ok(mesh) => mesh,
         Err(fault) => return mesh_error(fault, (owner, section), report),
     };
-    if let Some(place) = section.values.place("mesh_size").filter(|_| mesh.coarseness > COARSE) {
-        let message =
-            format!("`mesh_size` is {} times that by default in a polygon of {}", short(mesh.coarseness), owner.what);
-        report.warn(place, message, "torsion and shear may err by per cent: leave it out, or lower it until they stay");
-    }
     match compute(&mesh, materials, settings.axis) {
         Some(made) => Some(made),
         None => report.error(&section.span, format!("{}: its finite elements have no solution", owner.what)),
@@ -275,19 +318,22 @@ fn compute(mesh: &SectionMesh, materials: &[PolygonMaterial], axis: Option<[f64;
     let stiffness = if place == [0.0; 2] { about_centroid.clone() } else { about_centroid.beside(place) };
     let moduli: Vec<f64> = materials.iter().map(|of| of.modulus / reference).collect();
     let from_centroid = [0, 1].map(|k| shear_center[k] - centroid[k]);
-    let points = stress_points((mesh, &solutions), &moduli, (centroid, shear_center));
-    let equal = equal_section(&about_centroid, reference, from_centroid);
-    let stresses = SectionStresses::new(&equal, SectionOutline::Points(points)).beside(place);
-    let has_fibres = materials.iter().any(|of| of.has_fibres);
+    let is_plain = materials.iter().all(|of| !of.has_fibres);
+    let stresses = is_plain.then(|| {
+        let points = stress_points((mesh, &solutions), &moduli, (centroid, shear_center));
+        let equal = equal_section(&about_centroid, reference, from_centroid);
+        SectionStresses::new(&equal, SectionOutline::Points(points)).beside(place)
+    });
     let facts = SectionFacts {
         name: String::new(),
+        material: None,
         triangles: mesh.triangles.len(),
         area: area * s * s,
         centroid: [0, 1].map(|k| mesh.origin[k] + centroid[k]),
         shear_center: [0, 1].map(|k| mesh.origin[k] + shear_center[k]),
         stiffness: about_centroid,
     };
-    Some(MeshedSection { stiffness, stresses: (!has_fibres).then_some(stresses), facts })
+    Some(MeshedSection { stiffness, stresses, facts, coarseness: mesh.coarseness })
 }
 
 /// The section with a matrix of stiffness, and with a mass by its integrals of ρ times 1, y, z, y², z² and y z.

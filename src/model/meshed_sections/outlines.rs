@@ -16,6 +16,7 @@ const MOST_CORNERS: usize = 5000;
 pub(super) type Ring = Vec<usize>;
 
 /// A polygon of the deck.
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct PolygonPoints {
     /// The outline, then the holes.
     pub rings: Vec<Vec<[f64; 2]>>,
@@ -249,7 +250,7 @@ impl Outlines {
 }
 
 /// The remedy of polygons that overlap.
-const OVERLAP: &str = "give the outer polygon a hole where the inner one lies";
+const OVERLAP: &str = "polygons may touch and not overlap: give the outer one a hole where the inner one lies";
 
 /// The ends of an edge, the smaller number first.
 pub(super) fn undirected((a, b): (usize, usize)) -> (usize, usize) {

@@ -69,7 +69,12 @@ fn upright(beam: &Beam, model: &Model) -> Option<[f64; 3]> {
             && about.dot(&(bending * about)) < 2.0 * least
     };
     let first = beam.elements.first().filter(|_| beam.elements.iter().all(lies_flat))?;
-    // The web of I, channel and angle lies along local z.
-    let level = first.frame.column(0).cross(&down);
-    Some(std::array::from_fn(|i| if level[i].abs() < 1e-9 { 0.0 } else { level[i] }))
+    let along = first.frame.column(0).into_owned();
+    let level = along.cross(&down);
+    // The strong axis lies at this direction (cos, sin) from local y.
+    let principal = model.stiffnesses[first.section].M.fixed_view::<2, 2>(1, 1).into_owned().symmetric_eigen();
+    let strong = principal.eigenvectors.column(principal.eigenvalues.imax());
+    let [cos, sin] = [strong[0].abs(), strong[1] * strong[0].signum()];
+    let y = cos * level - sin * along.cross(&level);
+    Some(std::array::from_fn(|i| if y[i].abs() < 1e-9 { 0.0 } else { y[i] }))
 }

@@ -41,7 +41,7 @@ pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &Syst
 
 /// A section of polygons in words.
 fn section(facts: &SectionFacts) -> String {
-    let SectionFacts { name, triangles, area, centroid, shear_center, stiffness } = facts;
+    let SectionFacts { name, material, triangles, area, centroid, shear_center, stiffness } = facts;
     let place = |at: &[f64; 2]| format!("[{}, {}]", short(at[0]), short(at[1]));
     let [EA, GAy, GAz, GJ, EIy, EIz] = stiffness.matrix().diagonal().map(short).into();
     let twist = stiffness.torsion().map_or(GJ, short);
@@ -50,8 +50,9 @@ fn section(facts: &SectionFacts) -> String {
         0.0 => String::new(),
         product => format!(", product of bending {}", short(product)),
     };
+    let of = material.as_ref().map_or_else(String::new, |material| format!(" of `{material}`"));
     format!(
-        "`{name}`: area {}, EA {EA}, GA [{GAy}, {GAz}], GJ {twist}, EI [{EIy}, {EIz}]{skew}, mass {mass} per length, centroid {centroid}, \
+        "`{name}`{of}: area {}, EA {EA}, GA [{GAy}, {GAz}], GJ {twist}, EI [{EIy}, {EIz}]{skew}, mass {mass} per length, centroid {centroid}, \
          shear centre {center}; {triangles} triangles",
         short(*area)
     )
