@@ -120,7 +120,7 @@ impl StagesTold {
             return;
         }
         let effort = run.counts().since(&self.counts);
-        // Without a step, as after a checkpoint at the end, nothing could move.
+        // Without a step, as after a signal before the first one, nothing could move.
         let at_rest = rest_warning(run.balance(), model).filter(|_| stage.is_empty() && effort.steps > 0);
         let of_run = energy_warning(run.balance(), model).into_iter().chain(at_rest).chain(work_warning(run));
         let of_stage = stop_missed(run, model)

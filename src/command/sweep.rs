@@ -121,8 +121,8 @@ pub fn sweep(args: &SweepArgs) -> Result<(), Exit> {
     for one in folder.empty_columns().map_err(|error| cannot_write(&folder.path, &error))? {
         let Collected { name, at, quantity, .. } = one;
         say(&format!(
-            "warning: `{name}` is empty: no table that the cases write has `{quantity}` of `{at}`. Correct `at` or `quantity`, or ask for its table \
-             in `[output]` of the deck"
+            "warning: `{name}` is empty: no table that the cases write has one value of `{quantity}` of `{at}`. Correct `at` or `quantity`, ask \
+             for its table in `[output]` of the deck, or give `peak` where `at` names several nodes"
         ));
     }
     for (case, torn) in folder.torn_tables(&outcomes).map_err(|error| cannot_write(&folder.path, &error))? {

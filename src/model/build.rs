@@ -458,6 +458,7 @@ fn ground<'d>(
     let PartContext { groups, mut parts, sections, .. } = context;
     (parts.stiffnesses, parts.stresses, parts.sections) = (sections.stiffnesses, sections.stresses, sections.facts);
     let (bodies, rigid) = rigid_bodies(deck, analysis.has_inertia(), bodies, &mut parts, &mut nodes, report);
+    debug_assert!(bodies.is_sorted_by_key(|body| body.node), "`Body::at` searches in this order");
     let scene = Scene { deck, stage, analysis, names, bodies, parts, motion_curves };
     Ground { scene, nodes, groups, rigid, amplitudes }
 }

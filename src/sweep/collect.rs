@@ -109,14 +109,10 @@ fn of_table(path: &Path, wanted: &[&Collected]) -> io::Result<Vec<Option<f64>>> 
             search.see(|| field(time).map_or(f64::NAN, number), number(value));
         }
     }
-    if let Some((_, search)) = searches.iter().find(|(_, search)| search.has_others && !search.takes_extreme()) {
-        let Collected { name, at, .. } = search.wanted;
-        let message =
-            format!("`{name}` asks for one time of `{at}`, which has several nodes: give `peak`, or name a node");
-        return Err(io::Error::other(message));
-    }
     let mut found = vec![None; wanted.len()];
-    searches.into_iter().for_each(|(place, search)| found[place] = search.best);
+    // One time of several nodes is no number.
+    let is_one = |search: &Search| !search.has_others || search.takes_extreme();
+    searches.into_iter().filter(|(_, search)| is_one(search)).for_each(|(place, search)| found[place] = search.best);
     Ok(found)
 }
 

@@ -232,3 +232,42 @@ fn a_point_drawn_over_shallow_folds_needs_no_shorter_steps() {
         }
     }
 }
+
+/// A point under 1000 N is led over one fold, up or down, at which the plane of the first face soon lies far from the second one: equilibrium is
+/// found, and few steps are shortened.
+#[test]
+fn a_point_is_led_over_steep_folds() {
+    for (slope, stiffness) in [(-0.02, 1e9), (-0.05, 1e8), (-0.13, 1e8), (0.02, 1e8), (0.05, 1e8), (0.13, 1e8)] {
+        let nodes: Vec<[f64; 3]> = [[-0.02, 0.0], [0.0063, 0.0], [0.05, 0.0437 * slope]]
+            .into_iter()
+            .flat_map(|[x, z]| [-0.02, 0.02].map(|y| [x, y, z]))
+            .collect();
+        let deck = format!(
+            r#"
+            analysis = {{ kind = "static", end_time = 2.0, time_step = 0.05 }}
+            mesh = {{ file = "MESH" }}
+            materials.steel = {{ model = "elastic", youngs_modulus = 210e9, poisson_ratio = 0.3, density = 7850.0 }}
+            points = {{ p = [0.0051, 0.0, 0.004985] }}
+            shells = [{{ group = "sheet", thickness = 0.002, material = "steel" }}]
+            masses = [{{ at = "p", mass = 1.0 }}]
+            loads = [{{ at = "p", force = [0.0, 0.0, -1000.0], amplitude = "press" }}]
+            contacts = [{{ name = "strip", surface = {{ part = "sheet" }}, with = "p", radius = 0.004, stiffness = {stiffness:e} }}]
+            [[supports]]
+            at = "sheet"
+            fix = "all"
+            [[supports]]
+            at = "p"
+            fix = ["uy", "rotations"]
+            motion = {{ ux = {{ amplitude = "pull", scale = 0.002 }} }}
+            [amplitudes]
+            pull = {{ kind = "ramp", start = 1.0, end = 2.0 }}
+            press = {{ kind = "ramp", start = 0.0, end = 1.0 }}
+            "#
+        );
+        let faces = [[1, 3, 4, 2], [3, 5, 6, 4]];
+        let done = go_with(&mesh(&nodes, &faces, &[]), &deck, &mut |frame: &Frame| vec![frame.state.time]);
+        assert!(matches!(done.outcome, Outcome::Done), "{slope}: {:?}", done.outcome);
+        // 40 of the deck, and as many shortened ones as fit a fold that jumps.
+        assert!(done.rows.len() <= 70, "{slope}: {} steps", done.rows.len());
+    }
+}

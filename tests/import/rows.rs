@@ -515,9 +515,31 @@ fn materials_at_the_first_temperature() {
         "1e9, 0.3, 20.\n5e8, 0.2, 120.\n*PLASTIC\n4e6, 0., 20.\n6e6, 0.1, 20.\n2e6, 0., 120.\n4e6, 0.1, 120.",
     );
     let heat = |lines: &str| format!("*INITIAL CONDITIONS, TYPE=TEMPERATURE\n{lines}\n*BOUNDARY");
-    let heat = heat("1, 45.\n2, 45.");
-    has(BEAM, &[rows, ("*BOUNDARY", &heat)], None, "youngs_modulus = 8.75e8\npoisson_ratio = 0.275\n");
-    has(BEAM, &[rows, ("*BOUNDARY", &heat)], None, "hardening = [[0.0, 3500000.0], [0.1, 5500000.0]]\n");
+    let of = |lines: &str, modulus: &str, stress: &str| {
+        let heat = heat(lines);
+        let keys = format!("youngs_modulus = {modulus}\npoisson_ratio = ");
+        has(BEAM, &[rows, ("*BOUNDARY", &heat)], None, &keys);
+        has(BEAM, &[rows, ("*BOUNDARY", &heat)], None, &format!("hardening = [[0.0, {stress}], [0.1, "));
+    };
+    of("1, 45.\n2, 45.", "8.75e8", "3500000.0");
+    of("1, 20.\n2, 20.", "1e9", "4e6");
+    of("1, 300.\n2, 300.", "5e8", "2e6");
+    // On one node of two, and unlike.
+    of("tip, 45.", "1e9", "4e6");
+    of("1, 20.\n2, 120.", "1e9", "4e6");
+    has(BEAM, &[rows], None, "youngs_modulus = 1e9\npoisson_ratio = 0.3\n");
+    let text = |lines: &str| edited(BEAM, &[rows, ("*BOUNDARY", &heat(lines))]);
+    let changed = |lines: &str| reasons(&imported(&text(lines)), KeywordVerdict::Changed).join("; ");
+    assert!(changed("1, 45.\n2, 45.").contains("it chooses values of materials alone"));
+    assert!(changed("tip, 45.").contains("do not all begin at one temperature"), "{}", changed("tip, 45."));
+    let unlike = rows.1.replace("4e6, 0.1, 120.", "4e6, 0.2, 120.");
+    refuses(BEAM, &[(rows.0, &unlike), ("*BOUNDARY", &heat("1, 45.\n2, 45."))], "no rows hold at 45");
+    // A short row has zeros behind.
+    let short = ("1e9, 0.3", "1e9\n5e8, 0.2, 100.");
+    has(BEAM, &[short, ("*BOUNDARY", &heat("1, 50.\n2, 50."))], None, "youngs_modulus = 7.5e8\npoisson_ratio = 0.1\n");
+    let expands = ("1e9, 0.3", "1e9, 0.3\n*EXPANSION\n1e-5, 20.\n3e-5, 120.");
+    let warmed = ("*CLOAD", "*TEMPERATURE\n1, 90.\n2, 90.\n*CLOAD");
+    has(BEAM, &[expands, warmed, ("*BOUNDARY", &heat("1, 70.\n2, 70."))], None, "expansion = 2e-5\n");
 }
 
 /// A rigid motion at the start is one table with its axis, and mass scaling of all elements a key of the scheme.
