@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Mechanisms with a reduced part beside the same with all elements: errors over the number of modes, energy, unknowns and times.
 
-    scripts/reduced.py [--program PROGRAM] [crank] [bars] [princeton] [plate] [spin] [cab] [exudyn]      without names: all
+    scripts/reduced.py [--program PROGRAM] [crank] [bars] [princeton] [plate] [spin] [tumble] [cab] [exudyn]      without names: all
 
 `crank` is the slider-crank of J. B. Jonker (Multibody Syst. Dyn. 3 (1999)): crank 0.15 m at a constant speed, steel rod 0.3 m long and 6 mm thick, slider
 of half the mass of the rod. `bars` is decks/four_bar with a steel tube as coupler. `princeton` is the deck of that name. `plate` is a panel that
-swings about two corners, and `spin` one on a hub. `cab` is the side blow of decks/safety_cab, whose backbone bends. `exudyn` needs a Python with exudyn and
+swings about two corners, and `spin` one on a hub. `tumble` is a free box of six panels for 100,000 steps. `cab` is the side blow of decks/safety_cab, whose backbone bends. `exudyn` needs a Python with exudyn and
 scipy (pip install exudyn scipy).
 """
 
@@ -23,6 +23,7 @@ from scenes import PROGRAM, ROOT
 
 STEEL = '[materials.steel]\nmodel = "elastic"\nyoungs_modulus = 2e11\npoisson_ratio = 0.3\ndensity = 7870.0\n'
 SCHEME = '[integrator]\nscheme = "generalized-alpha"\nspectral_radius = 0.9\n'
+MOMENTA = (("px", "py", "pz"), ("lx", "ly", "lz"), ("mechanical",))
 OUTPUT = '[output]\nnodes = "all"\nevery = 4\n'
 
 
@@ -157,6 +158,53 @@ material = "metal"
 {OUTPUT}"""
 
 
+def box(steps: int, step: float, reduced: str) -> str:
+    """A free box of six panels that tumbles about its middle axis, with momenta written at 1000 instants."""
+    size = (0.5, 0.35, 0.2)
+    corners = {f"p{i}{j}{k}": [i * size[0], j * size[1], k * size[2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)}
+    points = "".join(f"{name} = {at}\n" for name, at in corners.items())
+    faces = ["000 010 110 100", "001 101 111 011", "000 100 101 001", "010 011 111 110", "000 001 011 010", "100 110 111 101"]
+    shells = "".join(
+        f'[[shells]]\nname = "side{n}"\ncorners = [{", ".join(f"{chr(34)}p{c}{chr(34)}" for c in face.split())}]\nelements = 4\n'
+        f'thickness = 0.002\nmaterial = "steel"\n' for n, face in enumerate(faces)
+    )
+    names = ", ".join(f'"side{n}"' for n in range(6))
+    together = f'[[parts]]\nname = "box"\nparts = [{names}]\nreduced = {reduced}\n' if reduced else ""
+    return f"""
+[analysis]
+kind = "dynamic"
+end_time = {steps * step}
+time_step = {step}
+[integrator]
+scheme = "generalized-alpha"
+spectral_radius = 0.9
+[iteration]
+tolerance = 1e-8
+{STEEL}[points]
+{points}{shells}{together}[[initial]]
+at = [{names}]
+velocity = [1.0, 2.0, 3.0]
+angular_velocity = [0.05, 8.0, 0.03]
+about = [0.25, 0.175, 0.1]
+[output]
+nodes = ["p000"]
+every = {steps // 1000}
+energy = true
+"""
+
+
+def tumble(program: str, steps: int) -> None:
+    """Prints the drift of momenta and energy of the box in tenths of the run."""
+    print(f"\nBox that tumbles for {steps} steps; change from the start as a part of the size there\n")
+    print("| tenth of the run | linear momentum | angular momentum | energy |\n|---|---|---|---|")
+    rows = Result(program, box(steps, 2e-3, "4")).energies
+    size = [math.hypot(*(rows[0][k] for k in of)) for of in MOMENTA]
+    off = [[math.dist([row[k] for k in of], [rows[0][k] for k in of]) / s for of, s in zip(MOMENTA, size)] for row in rows]
+    for tenth in (0, 4, 9):
+        part = off[len(off) * tenth // 10 : len(off) * (tenth + 1) // 10]
+        print(f"| {tenth + 1} | " + " | ".join(f"{max(row[k] for row in part):.1e}" for k in range(3)) + " |", flush=True)
+
+
 def exudyn(program: str, modes: int) -> None:
     """The swinging panel by ObjectFFRFreducedOrder of Exudyn with our matrices, without rotations, by the same method of Craig and Bampton."""
     import exudyn as exu
@@ -262,7 +310,7 @@ def table(title: str, program: str, deck, forms: list, size: float) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--program", default=str(PROGRAM))
-    parser.add_argument("scenes", nargs="*", default=["crank", "bars", "princeton", "plate", "spin", "cab", "exudyn"])
+    parser.add_argument("scenes", nargs="*", default=["crank", "bars", "princeton", "plate", "spin", "tumble", "cab", "exudyn"])
     asked = parser.parse_args()
     pieces = [(f"{modes} modes, {count} pieces", f"{{ modes = {modes}, pieces = {count} }}") for count in (1, 2, 4) for modes in (0, 1, 3, 6)]
     forms = [("all elements", ""), *pieces, ("6 modes, linear", "{ modes = 6, geometric_stiffness = false }")]
@@ -280,6 +328,8 @@ def main() -> None:
         for elements in meshes if scene in asked.scenes else ():
             title = f"Panel that {scene}s, {elements} elements along an edge; errors of places as a part of 0.6 m"
             table(title, asked.program, plate, [(name, elements, form, rest) for name, form in panels], 0.6)
+    if "tumble" in asked.scenes:
+        tumble(asked.program, 100_000)
     if "cab" in asked.scenes:
         print("\nSafety cab, side blow; errors of places as a part of 0.1 m\n\n| backbone | largest error | read s | loop s | iterations |\n|---|---|---|---|---|")
         deck, full = ROOT / "decks/safety_cab/side.toml", None

@@ -144,8 +144,9 @@ fn channels_and_hats() {
     let (_, _, [y, z]) =
         of_plates(&[[0.006, 0.2, 0.003, 0.1], [0.074, 0.01, 0.043, 0.005], [0.074, 0.01, 0.043, 0.195]]);
     let offset = row_of(&imported(&channel).deck, "offset_start");
-    // (t/b)², of the distance of the centroid from the web.
-    assert!((offset[1] / (y - 0.01) - 1.0).abs() < 0.015 && (offset[2] / (z - 0.04) - 1.0).abs() < 1e-12, "{offset:?}");
+    assert!((offset[1] / (y - 0.01) - 1.0).abs() < 1e-12 && (offset[2] / (z - 0.04) - 1.0).abs() < 1e-12, "{offset:?}");
+    let of_calculix = imported_from(&channel, Some(Dialect::Calculix));
+    assert!(!refusals(&of_calculix).is_empty(), "CalculiX has no such section");
     // Unlike flanges. (t/b)² is 0.02, and corners are a part of the area.
     let made = imported(&edited(BEAM, &with("SECTION=CHANNEL", "0., 0.2, 0.08, 0.06, 0.012, 0.008, 0.006, 0.")));
     let (area, moments, center) =
@@ -556,6 +557,17 @@ fn starts_and_scaled_masses() {
         &spun("*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\ntip, 3.\n1., 0., 0., 1.\n*BOUNDARY"),
         "the two points of this axis are one",
     );
+    let of = |lines: &str| {
+        edited(BEAM, &spun("*BOUNDARY").map(|(old, new)| if old == new { (old, lines) } else { (old, new) }))
+    };
+    let turned = "*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\ntip, 3.\n1., 0., 0., 1., 0., 2.\n";
+    let also = format!("{turned}*INITIAL CONDITIONS, TYPE=VELOCITY\ntip, 1, 1.\n*BOUNDARY");
+    refuses(&of(&also), &[], "has a rotating velocity by another line");
+    refuses(&of(&format!("{turned}{turned}*BOUNDARY")), &[], "has a rotating velocity by another line");
+    // Node 3 has no element.
+    refuses(&of(&format!("{}*BOUNDARY", turned.replace("tip", "3"))), &[], "has an element that could move");
+    let still = imported(&of(&format!("{}*BOUNDARY", turned.replace("tip, 3.", "tip, 0."))));
+    assert!(reasons(&still, KeywordVerdict::Ignored).iter().any(|said| said.contains("all begins at rest")));
     let scaled = |line: &'static str| [("*STATIC\n0.5, 1.\n", line)];
     let explicit = "*DYNAMIC, EXPLICIT\n, 1.\n*FIXED MASS SCALING, TYPE=BELOW MIN, DT=2e-6\n";
     has(BEAM, &scaled(explicit), None, "scheme = \"central-difference\"\nmass_scaling_step = 2e-6\n");
@@ -566,6 +578,15 @@ fn starts_and_scaled_masses() {
     ] {
         refuses(BEAM, &scaled(line), why);
     }
+    // Scaled masses stay in later steps, and cannot come there.
+    let second = "*END STEP\n*STEP\n*DYNAMIC, EXPLICIT\n, 1.\n*CLOAD\n2, 2, 1.\n*END STEP\n";
+    has(&edited(BEAM, &[("*END STEP\n", second)]), &scaled(explicit), None, "mass_scaling_step = 2e-6\n");
+    let late = second.replace(", 1.\n*CLOAD", ", 1.\n*FIXED MASS SCALING, DT=2e-6\n*CLOAD");
+    refuses(
+        &edited(BEAM, &[("*END STEP\n", &late)]),
+        &scaled("*DYNAMIC, EXPLICIT\n, 1.\n"),
+        "masses are scaled from the first step",
+    );
 }
 
 /// Loads go on from step to step, and run from value to value over a step.

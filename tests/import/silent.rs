@@ -65,6 +65,10 @@ fn static_perturbations() {
         said(&text.replace("2, 2, 1.", "2, 2, 1.\n*BOUNDARY\n1, 1, 1, 0.1"), Dialect::Abaqus)
             .contains("moved supports")
     );
+    assert!(
+        said(&text.replace("2, 2, 1.", "2, 2, 1.\n*TEMPERATURE\n1, 50."), Dialect::Abaqus)
+            .contains("temperatures of their own")
+    );
     let modes = "*END STEP\n*STEP, PERTURBATION\n*FREQUENCY\n4\n*END STEP\n";
     let alone = [("*STEP, NLGEOM", "*STEP, PERTURBATION"), ("*END STEP\n", modes)];
     for (dialect, first) in [(Dialect::Abaqus, "modal"), (Dialect::Calculix, "static")] {

@@ -192,6 +192,24 @@ fn two_layers_have_their_sums() {
     println!("shear of two layers: {found:.1e}");
     assert!(found.abs() < 1e-6, "the midpoint rule has 1e-8, the mesh of order 4 the rest: {found}");
 
+    let stresses = |ratio: f64, load: [f64; 6]| {
+        let keys = polygons(&[(&upper, steel), (&lower, soft)], ", mesh_size = 0.002");
+        model(&keys, ratio, false).stresses[0].clone().expect("stresses").extremes(&load).values
+    };
+    let (N, M) = (-1e5, 1e3);
+    let at = |E: f64, at: f64| E * (N / ((E1 + E2) * half) + M / EI * (at - c));
+    let each = [at(E1, z), at(E1, 0.0), at(E2, 0.0), at(E2, -z)];
+    let [most, least, ..] = stresses(RATIO, [N, 0.0, 0.0, 0.0, M, 0.0]);
+    let size = each.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    assert!((most - each.iter().copied().fold(f64::MIN, f64::max)).abs() < 1e-9 * size, "rounding: {most} of {each:?}");
+    assert!(
+        (least - each.iter().copied().fold(f64::MAX, f64::min)).abs() < 1e-9 * size,
+        "rounding: {least} of {each:?}"
+    );
+    let [_, _, shear, _] = stresses(0.0, [0.0, 0.0, 1e4, 0.0, 0.0, 0.0]);
+    let off = shear / (1e4 * flow(c) / EI) - 1.0;
+    assert!(off.abs() < 0.02, "0.7 % half a mesh beside the place, 1 % of the elements: {off}");
+
     let twist = |width: f64| {
         let y = 0.5 * width;
         let upper = vec![[-y, 0.0], [y, 0.0], [y, z], [-y, z]];
