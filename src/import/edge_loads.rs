@@ -126,7 +126,7 @@ fn at_nodes(build: &Build, cell: usize, of_edge: &[usize], along: &Along) -> Opt
 pub fn keeps_direction(build: &mut Build, line: &SpreadLine) {
     let is_fixed = line.is_fixed && ["TRVEC", "EDLD"].iter().any(|kind| line.kind.starts_with(kind));
     let is_before = |step: &&StepCard| step.spread.iter().all(|other| other.line != line.line);
-    if !is_fixed && build.im.steps.list.iter().skip_while(is_before).any(|step| step.is_nonlinear) {
+    if !is_fixed && build.im.steps.list.iter().skip_while(is_before).any(|step| step.is_nonlinear()) {
         let how = "this load keeps the direction of the undeformed shape, and errs by the angle of rotation; rotations below 0.01 rad change it by 1 %";
         build.im.change(line.line, how);
     }

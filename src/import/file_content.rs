@@ -518,8 +518,8 @@ pub struct StepCard {
     pub line: usize,
     /// Its name.
     pub name: String,
-    /// True with large displacements.
-    pub is_nonlinear: bool,
+    /// True with large displacements, false without; `None` where neither this step nor one before says so.
+    pub nonlinear: Option<bool>,
     /// True for a perturbation of the state before.
     pub is_perturbation: bool,
     /// True or false where loads without an amplitude jump or ramp against the custom of the procedure.
@@ -556,7 +556,13 @@ impl StepCard {
 
     /// True for a step that advances time at large displacements; later modes are about its final state.
     pub fn is_large(&self) -> bool {
-        self.is_nonlinear && self.advances_time()
+        self.is_nonlinear() && self.advances_time()
+    }
+
+    /// True with large displacements, as explicit steps are by default.
+    pub fn is_nonlinear(&self) -> bool {
+        let is_explicit = matches!(self.procedure, Some((StepProcedure::Dynamic { is_explicit: true, .. }, _)));
+        self.nonlinear.unwrap_or(is_explicit)
     }
 
     /// True where something in it follows an amplitude.

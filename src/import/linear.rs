@@ -18,7 +18,7 @@ pub fn time_step(im: &Importer) -> Option<f64> {
     for step in &im.steps.list {
         match &step.procedure {
             Some((StepProcedure::Static { step: first, duration, is_riks: false }, _))
-                if !step.is_nonlinear && step.changes.is_empty() =>
+                if !step.is_nonlinear() && step.changes.is_empty() =>
             {
                 lengths.push(*duration);
                 shortest = shortest.min(if step.has_amplitude() { *first } else { *duration });

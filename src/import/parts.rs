@@ -502,7 +502,7 @@ fn shell(
         if let Some(points) = points.filter(|points| (2..=10).contains(points)) {
             table = table.value("layers", points.to_string());
         }
-        if build.im.steps.list.iter().any(|step| step.is_nonlinear) {
+        if build.im.steps.list.iter().any(|step| step.is_nonlinear()) {
             table = table.text("strain", "logarithmic");
         }
     }

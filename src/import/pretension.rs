@@ -92,7 +92,7 @@ fn say_differences(build: &mut Build, card: &PretensionCard) {
     if build.im.dialect == Some(Dialect::Calculix) {
         let how = "the beam stays, with its stiffness; CalculiX removes it and ties its nodes along the normal alone";
         build.im.change(card.line, how);
-    } else if !card.is_follower && build.im.steps.list.iter().any(|step| step.is_nonlinear) {
+    } else if !card.is_follower && build.im.steps.list.iter().any(|step| step.is_nonlinear()) {
         build.im.change(card.line, "the normal of the section turns with the beam; Abaqus keeps it without FOLLOWER");
     }
 }

@@ -180,7 +180,7 @@ fn width(build: &Build, piece: &PartPiece, axis: usize) -> Result<f64, &'static 
 
 fn pressure(build: &Build, table: DeckTable, value: f64) -> DeckTable {
     let table = table.number("pressure", value);
-    let is_nonlinear = build.im.steps.list.iter().any(|step| step.is_nonlinear);
+    let is_nonlinear = build.im.steps.list.iter().any(|step| step.is_nonlinear());
     if is_nonlinear { table.value("follower", "true") } else { table }
 }
 

@@ -102,10 +102,10 @@ fn kind(procedure: &StepProcedure) -> &'static str {
 /// Reports a procedure that the deck computes in another way.
 fn say_changes(build: &mut Build, step: &StepCard, procedure: &StepProcedure, line: usize) {
     match procedure {
-        StepProcedure::Static { .. } if !step.is_nonlinear => {
+        StepProcedure::Static { .. } if !step.is_nonlinear() => {
             build.im.change(line, "a step without NLGEOM is linear; beside other steps, gaps and yielding rdsolve computes it at large displacements");
         }
-        StepProcedure::Dynamic { .. } if !step.is_nonlinear => {
+        StepProcedure::Dynamic { .. } if !step.is_nonlinear() => {
             build
                 .im
                 .change(line, "a step without NLGEOM is linear; rdsolve computes the motion at large displacements");

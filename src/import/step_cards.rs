@@ -16,13 +16,17 @@ pub fn step(im: &mut Importer, block: &KeywordBlock) {
     let number = im.steps.list.len() + 1;
     let is_yes =
         |name: &str| keyword.has(name) && !keyword.value(name).is_some_and(|value| value.eq_ignore_ascii_case("NO"));
+    let is_perturbation = is_yes("PERTURBATION");
+    // Both programs keep large displacements on until a step ends them.
+    let before = im.steps.list.iter().rev().find(|step| !step.is_perturbation).and_then(|step| step.nonlinear);
+    let nonlinear = if keyword.has("NLGEOM") { Some(is_yes("NLGEOM")) } else { before.filter(|_| !is_perturbation) };
     let jumps = keyword.value("AMPLITUDE").map(|word| word.eq_ignore_ascii_case("STEP"));
     im.steps.is_open = true;
     im.steps.list.push(StepCard {
         line,
         name: keyword.value("NAME").map_or_else(|| format!("step_{number}"), str::to_owned),
-        is_nonlinear: is_yes("NLGEOM"),
-        is_perturbation: is_yes("PERTURBATION"),
+        nonlinear,
+        is_perturbation,
         jumps,
         ..StepCard::default()
     });
@@ -159,6 +163,8 @@ pub fn modal_dynamic(im: &mut Importer, block: &KeywordBlock) {
         block.keyword.line,
         StepProcedure::Dynamic { step: first, duration, alpha: 0.0, is_explicit: false, mass_scaling: None },
     );
+    // Modes are linear whatever the step before is.
+    im.steps.at_hand().nonlinear = Some(false);
 }
 
 /// `*FREQUENCY`.
