@@ -1,7 +1,7 @@
 //! The content of a file, before sets and instances are resolved.
 
 use crate::contact_content::{ContactCards, ModelChange};
-use crate::material_tables::MaterialTable;
+use crate::material_table::MaterialTable;
 use crate::scopes::NamedTarget;
 use crate::tied_nodes::NodalAxes;
 use crate::time_formula::TimeFormula;

@@ -5,7 +5,8 @@ use crate::file_content::MaterialCard;
 use crate::flat_mesh::FlatMesh;
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
-use crate::material_tables::{self, MaterialTable, MaterialValue};
+use crate::material_starts;
+use crate::material_table::{MaterialTable, MaterialValue};
 use base::text_file::Word;
 
 /// `*MATERIAL`.
@@ -24,7 +25,8 @@ fn at_hand<'m>(im: &'m mut Importer, line: usize) -> Option<&'m mut MaterialCard
 
 /// Reads a table of values into the material at hand.
 fn read(im: &mut Importer, block: &KeywordBlock, what: MaterialValue) {
-    let table = MaterialTable::read(im, block, what);
+    let lines = block.data.iter().filter(|data| data.filled() > 0);
+    let table = MaterialTable::new(block.keyword.line, what, lines.map(|data| im.numbers(data)));
     if let Some(material) = at_hand(im, block.keyword.line) {
         material.take(table);
     }
@@ -114,7 +116,7 @@ pub fn rate_dependent(im: &mut Importer, block: &KeywordBlock) {
 
 /// Takes the values of materials at the start, and says what becomes of temperatures and of coefficients of expansion.
 pub fn say_temperatures(im: &mut Importer, mesh: &FlatMesh) {
-    let chosen = material_tables::take_start(im, mesh);
+    let chosen = material_starts::take_start(im, mesh);
     if im.is_heated() {
         return;
     }

@@ -104,8 +104,8 @@ pub fn box_of_unlike_walls(sizes: &[f64]) -> Result<KeysAndCentroid, String> {
     Ok((keys, center))
 }
 
-/// A channel by the height of the node over its lower side, its height, the widths and then the thicknesses of the lower and the upper flange,
-/// the thickness of its web, and the place of the node from the back of the web. Flanges point along +1.
+/// A channel, whose flanges point along +1. Its sizes are the height of the node over its lower side, its height, and the widths of the lower and
+/// the upper flange. Then come the thicknesses of both and of the web, and the place of the node from the back of the web.
 pub fn channel(sizes: &[f64]) -> Result<KeysAndCentroid, String> {
     use SectionValue::{Number, Word};
     let [l, height, lower, upper, below, above, web, o, ..] = *sizes else { return Err(needs_eight("CHANNEL")) };
@@ -133,8 +133,8 @@ pub fn channel(sizes: &[f64]) -> Result<KeysAndCentroid, String> {
     Ok((keys, [y - o, z - l]))
 }
 
-/// A hat by the height of the node over its lower side, its height, its width below, the widths of its top and of each rim, then the thicknesses
-/// of top, rims and webs. The webs join the ends of top and rims.
+/// A hat, whose webs join the ends of top and rims. Its sizes are the height of the node over its lower side, its height, its width below, and the
+/// widths of its top and of each rim. Then come the thicknesses of top, rims and webs.
 pub fn hat(sizes: &[f64]) -> Result<KeysAndCentroid, String> {
     let [l, height, width, top, rim, above, below, web, ..] = *sizes else { return Err(needs_eight("HAT")) };
     let is_thin = 0.5 * (above + below) < height && 2.0 * rim < width;

@@ -8,7 +8,7 @@ const BUDGET: [(&str, usize); 11] = [
     ("linear", 4270),
     ("mechanics", 36_830),
     ("deck", 5480),
-    ("import", 11_510),
+    ("import", 11_530),
     ("model", 29_200),
     ("solve", 36_520),
     ("results", 11_580),

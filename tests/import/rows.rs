@@ -582,7 +582,7 @@ fn starts_and_scaled_masses() {
     // Scaled masses stay in later steps, and cannot come there.
     let second = "*END STEP\n*STEP\n*DYNAMIC, EXPLICIT\n, 1.\n*CLOAD\n2, 2, 1.\n*END STEP\n";
     let text = edited(&edited(BEAM, &[("*END STEP\n", second)]), &scaled(explicit));
-    has(&text, &[], None, "mass_scaling_step = 2e-6\n");
+    has(&text, &[], None, "mass_scaling_step = 2e-6 }");
     // Explicit steps are at large displacements without a word.
     let is_linear =
         |text: &str| reasons(&imported(text), KeywordVerdict::Changed).iter().any(|said| said.contains("is linear"));
