@@ -33,9 +33,12 @@ enum VaryingPart {
     Modulated(f64, [f64; 2]),
 }
 
+/// Reads the numbers of a formula; `None` where they make none.
+type ReadFormula = fn(&[f64]) -> Option<TimeFormula>;
+
 impl TimeFormula {
     /// What reads the numbers of a DEFINITION; `None` for one that is no formula.
-    pub fn reader(kind: &str) -> Option<fn(&[f64]) -> Option<TimeFormula>> {
+    pub fn reader(kind: &str) -> Option<ReadFormula> {
         match kind {
             "PERIODIC" => Some(TimeFormula::periodic),
             "DECAY" => Some(TimeFormula::decay),

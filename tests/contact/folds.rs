@@ -176,7 +176,7 @@ fn a_ball_bounces_off_a_line_in_which_three_sheets_meet() {
 /// jumps where the point crosses a fold, and no load step is shortened there.
 #[test]
 fn a_point_drawn_over_shallow_folds_needs_no_shorter_steps() {
-    let height = |k: usize| if k % 2 == 0 { 0.0 } else { -2e-5 };
+    let height = |k: usize| if k.is_multiple_of(2) { 0.0 } else { -2e-5 };
     let nodes: Vec<[f64; 3]> = (0..9).flat_map(|k| [-0.01, 0.01].map(|y| [0.01 * k as f64, y, height(k)])).collect();
     let faces: Vec<[usize; 4]> = (0..8).map(|k| [2 * k + 1, 2 * k + 3, 2 * k + 4, 2 * k + 2]).collect();
     let deck = r#"

@@ -379,6 +379,9 @@ fn equal_section(section: &Stiffness, modulus: f64, shear_center: [f64; 2]) -> S
     }
 }
 
+/// The sum of two components of shear stress, each for three resultants, and the number of its terms.
+type ShearSum = ([[f64; 3]; 2], f64);
+
 /// Places on the edges of polygons with the shear stress there, the mean of the triangles of one polygon. Re-entrant corners are left out.
 fn stress_points(
     (mesh, solutions): (&SectionMesh, &CentralSolutions),
@@ -387,7 +390,7 @@ fn stress_points(
 ) -> Vec<StressPoint> {
     let s = mesh.scale;
     let mut angles = vec![0.0; mesh.edge_nodes];
-    let mut sums: BTreeMap<(usize, usize), ([[f64; 3]; 2], f64)> = BTreeMap::new();
+    let mut sums: BTreeMap<(usize, usize), ShearSum> = BTreeMap::new();
     for (number, (nodes, &polygon)) in mesh.triangles.iter().zip(&mesh.polygons).enumerate() {
         if nodes[..3].iter().all(|&node| node >= mesh.edge_nodes) {
             continue;
@@ -406,7 +409,7 @@ fn stress_points(
         }
     }
     let kept = sums.into_iter().filter(|((_, node), _)| !(RE_ENTRANT..1.999 * PI).contains(&angles[*node]));
-    let point = |((polygon, node), (sum, count)): ((usize, usize), ([[f64; 3]; 2], f64))| StressPoint {
+    let point = |((polygon, node), (sum, count)): ((usize, usize), ShearSum)| StressPoint {
         at: [0, 1].map(|k| s * mesh.nodes[node][k] - centroid[k]),
         wall: 0,
         modulus: moduli[polygon],

@@ -153,11 +153,11 @@ fn known_depth(of: &FacetScene, history: &[f64], facet: usize) -> Option<f64> {
 /// near. The force of a point that slides over a shallow fold has no kink within the step, so the iteration converges. At the end of the step
 /// the contact energy jumps by force times angle times the way past the rim; in dynamics the facet changes at once.
 ///
-/// How far the plane may lie from the surface is measured by the depth at the last step: their distance at the point does not change with the
-/// depth in this one, so the iteration cannot alternate between both.
+/// The depth at the last step limits the distance between plane and surface. This distance does not change with the depth in this step, so the
+/// iteration cannot alternate between both.
 fn go_on_in_plane(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], found: &mut [FacetTouch]) {
-    /// Largest square of the angle, over that of depth to reach: the edge of a ridge is rounded with the reach, which may lift it off the plane
-    /// by a twentieth of the depth.
+    /// Largest square of the angle over the ratio of depth to reach. The reach rounds the edge of a ridge, which may lie above the plane by a
+    /// twentieth of the depth.
     const ROUNDED: f64 = 0.1;
     /// Largest square of the sine of the angle.
     const STEEPEST: f64 = 0.02;
