@@ -491,8 +491,8 @@ fn tables_of_formulas_between_their_points() {
             if t < 0.3001 { 0.5 } else { 0.5 + 2.0 * (157.0 * (t - 0.3001)).sin() + (314.0 * (t - 0.3001)).sin() }
         };
         let fall = |t: f64| if t < 0.3001 { 0.0 } else { 2.0 * (-(t - 0.3001) / 0.001).exp() };
-        type Sized<'f> = (Vec<[f64; 2]>, &'f dyn Fn(f64) -> f64, f64);
-        let formulas: [Sized; 2] = [(sines, &shape, 3.0), (decay.clone(), &fall, 2.0)];
+        type Curve<'f> = (Vec<[f64; 2]>, &'f dyn Fn(f64) -> f64, f64);
+        let formulas: [Curve; 2] = [(sines, &shape, 3.0), (decay.clone(), &fall, 2.0)];
         for (points, formula, size) in formulas {
             for pair in points.windows(2).filter(|pair| pair[1][0] < 1.0 && pair[1][0] - pair[0][0] > 1e-8) {
                 for part in [0.25, 0.5, 0.75] {
