@@ -29,6 +29,7 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
     loads::drop_those_of_modes(im);
     single_loads::join(im, &mesh);
     harmonics::prepare(im);
+    step_cards::settle_nonlinearity(im);
     linear::end_loads_before_perturbations(im);
     step_cards::carry_scaled_masses(im);
     material_cards::say_temperatures(im, &mesh);

@@ -559,7 +559,7 @@ impl StepCard {
         self.is_nonlinear() && self.advances_time()
     }
 
-    /// True with large displacements, as explicit steps are by default.
+    /// True with large displacements, as explicit steps of Abaqus are by default.
     pub fn is_nonlinear(&self) -> bool {
         let is_explicit = matches!(self.procedure, Some((StepProcedure::Dynamic { is_explicit: true, .. }, _)));
         self.nonlinear.unwrap_or(is_explicit)

@@ -1,5 +1,6 @@
 //! Steps: the procedure of each, and the supports and loads that begin in it.
 
+use crate::dialect::Dialect;
 use crate::file_content::{ForceLine, RotatingNodes, SpreadLine, StepCard, StepProcedure, SupportLine};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
@@ -121,6 +122,14 @@ pub fn fixed_mass_scaling(im: &mut Importer, block: &KeywordBlock) {
         _ => return im.refuse(line, "mass scaling belongs to a step of *DYNAMIC, EXPLICIT"),
     }
     im.change(line, "elements get rotary inertia first, and mass where that is not enough");
+}
+
+/// In CalculiX explicit steps are linear by default, as others are.
+pub fn settle_nonlinearity(im: &mut Importer) {
+    let is_calculix = im.dialect == Some(Dialect::Calculix);
+    im.steps.list.iter_mut().filter(|_| is_calculix).for_each(|step| {
+        step.nonlinear.get_or_insert(false);
+    });
 }
 
 /// Carries scaled masses on to later explicit steps. Refuses steps in time of a file that have other masses, for a deck has one set.
