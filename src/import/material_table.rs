@@ -16,7 +16,7 @@ pub enum MaterialValue {
 }
 
 /// Rows of values of one temperature.
-pub type Rows = Vec<Vec<f64>>;
+pub type MaterialRows = Vec<Vec<f64>>;
 
 /// A table of values by temperature.
 #[derive(Debug, Clone)]
@@ -26,7 +26,7 @@ pub struct MaterialTable {
     /// What its rows give.
     pub what: MaterialValue,
     /// The rows of each temperature, which increases.
-    pub groups: Vec<(f64, Rows)>,
+    pub groups: Vec<(f64, MaterialRows)>,
 }
 
 impl MaterialTable {
@@ -37,7 +37,7 @@ impl MaterialTable {
             MaterialValue::Elastic | MaterialValue::Plastic => (2, 0.0),
             MaterialValue::Rate => (2, 1.0),
         };
-        let mut groups: Vec<(f64, Rows)> = Vec::new();
+        let mut groups: Vec<(f64, MaterialRows)> = Vec::new();
         for mut row in all {
             let heat = row.get(count).copied().unwrap_or(0.0);
             row.resize(count, missing);
@@ -55,14 +55,14 @@ impl MaterialTable {
     }
 
     /// The rows at a temperature, linear between the two beside it; `None` where these have other strains.
-    pub fn at(&self, heat: f64) -> Option<Rows> {
-        let mut groups: Vec<&(f64, Rows)> = self.groups.iter().collect();
+    pub fn at(&self, heat: f64) -> Option<MaterialRows> {
+        let mut groups: Vec<&(f64, MaterialRows)> = self.groups.iter().collect();
         groups.sort_by(|a, b| a.0.total_cmp(&b.0));
         let after = groups.partition_point(|group| group.0 <= heat);
         match (after.checked_sub(1).map(|last| groups[last]), groups.get(after)) {
             (Some((low, a)), Some((high, b))) if *low < heat => {
                 let share = (heat - low) / (high - low);
-                let strains = |rows: &Rows| -> Vec<f64> { rows.iter().map(|row| row[row.len() - 1]).collect() };
+                let strains = |rows: &MaterialRows| -> Vec<f64> { rows.iter().map(|row| row[row.len() - 1]).collect() };
                 let is_alike = self.what != MaterialValue::Plastic || strains(a) == strains(b);
                 let between = |(a, b): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
                     a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect()
