@@ -54,9 +54,7 @@ const CATALOGUES: [(&str, &[&str]); 7] = [
 /// Kinds that more than one file besides their own knows: a circle is a tube without a hole.
 const LISTED_OFTEN: Known = &[("mechanics/sections/tube.rs", 2)];
 
-#[test]
-fn parts_are_known_to_few() {
-    let source = Source::read();
+pub fn parts_are_known_to_few(source: &Source) {
     let named: Vec<(&File, BTreeSet<String>)> = source.files.iter().map(|file| (file, tokens(file))).collect();
     let mut found = BTreeMap::new();
     for part in PARTS {
@@ -75,9 +73,7 @@ fn parts_are_known_to_few() {
     compare("files besides their own that name a kind of part", WELL_KNOWN, &found);
 }
 
-#[test]
-fn kinds_are_listed_once() {
-    let source = Source::read();
+pub fn kinds_are_listed_once(source: &Source) {
     let named: Vec<BTreeSet<String>> = source.files.iter().map(tokens).collect();
     let used: Vec<_> = (0..source.files.len()).map(|file| source.uses(file)).collect();
     let mut found = BTreeMap::new();

@@ -43,9 +43,7 @@ const SCATTERED: Known = &[("mechanics/elements/superelement/mod.rs: FloatingEle
 /// Tables of numbers and formulas, which are read line by line; and what is still to be taken apart.
 const LONG: Known = &[("base/math/quadrature.rs: gauss", 132)];
 
-#[test]
-fn structs_have_few_public_fields() {
-    let source = Source::read();
+pub fn structs_have_few_public_fields(source: &Source) {
     let mut found = BTreeMap::new();
     for file in &source.files {
         for item in &file.items {
@@ -60,9 +58,7 @@ fn structs_have_few_public_fields() {
     compare("public fields", WIDE, &found);
 }
 
-#[test]
-fn methods_of_a_type_stand_together() {
-    let source = Source::read();
+pub fn methods_of_a_type_stand_together(source: &Source) {
     let mut files = BTreeMap::<String, BTreeSet<&str>>::new();
     for file in &source.files {
         for item in &file.items {
@@ -81,9 +77,7 @@ fn methods_of_a_type_stand_together() {
     compare("files with methods of a type", SCATTERED, &found);
 }
 
-#[test]
-fn functions_are_short() {
-    let source = Source::read();
+pub fn functions_are_short(source: &Source) {
     let mut found = BTreeMap::new();
     for file in &source.files {
         let mut functions = Functions { file, long: Vec::new() };

@@ -22,18 +22,14 @@ const FORMULAS: Known = &[
     ("solve/system/penalties.rs: INDEFINITE", 1),
 ];
 
-#[test]
-fn the_step_is_short() {
-    let source = Source::read();
+pub fn the_step_is_short(source: &Source) {
     let file = source.files.iter().find(|file| file.path == "solve/step/newton.rs").expect("the iteration");
     let mut lines = Lines { of: "iterate", found: Vec::new() };
     file.items.iter().for_each(|item| lines.visit_item(item));
     assert_eq!(lines.found, [STEP], "lines of the step");
 }
 
-#[test]
-fn thresholds_stand_in_one_file() {
-    let source = Source::read();
+pub fn thresholds_stand_in_one_file(source: &Source) {
     let mut found = BTreeMap::new();
     for file in source.files.iter().filter(|file| file.path.starts_with("solve/") && file.path != "solve/tolerances.rs")
     {
@@ -46,9 +42,7 @@ fn thresholds_stand_in_one_file() {
     compare("thresholds outside of solve/tolerances.rs", FORMULAS, &found);
 }
 
-#[test]
-fn few_functions_take_the_workspace() {
-    let source = Source::read();
+pub fn few_functions_take_the_workspace(source: &Source) {
     let mut writers = Writers(0);
     let files = source.files.iter().filter(|file| file.path.starts_with("solve/"));
     files.for_each(|file| file.items.iter().for_each(|item| writers.visit_item(item)));

@@ -187,7 +187,11 @@ fn stages_go_on_where_they_were_stopped() {
 
 #[test]
 fn automatic_steps_go_on_where_they_were_stopped() {
-    stopped_and_whole("heavy_top", &["--set", "analysis.time_step=\"auto\""], 8);
+    stopped_and_whole(
+        "heavy_top",
+        &["--set", "analysis.time_step=\"auto\"", "--set", "analysis.end_time=0.2", "--set", "expect=[]"],
+        8,
+    );
 }
 
 /// Pilot runs are made again, and tell the same errors.

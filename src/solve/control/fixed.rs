@@ -288,18 +288,3 @@ impl Substeps {
 fn longest(at: u64) -> u64 {
     1 << (at | WHOLE_STEP).trailing_zeros()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// From any place, the longest substep ends inside the step, and is a half of a half of it.
-    #[test]
-    fn the_longest_substep_ends_inside_the_step() {
-        assert_eq!(longest(0), WHOLE_STEP);
-        assert_eq!(longest(WHOLE_STEP / 2), WHOLE_STEP / 2);
-        assert_eq!(longest(WHOLE_STEP / 4), WHOLE_STEP / 4);
-        assert_eq!(longest(3 * (WHOLE_STEP / 4)), WHOLE_STEP / 4);
-        assert_eq!(longest(WHOLE_STEP - 1), 1);
-    }
-}

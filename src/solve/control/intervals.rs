@@ -303,19 +303,3 @@ fn multiple(k: usize, interval: f64) -> f64 {
     let per_unit = (1.0 / interval).round();
     if (per_unit * interval - 1.0).abs() < 4.0 * f64::EPSILON { k as f64 / per_unit } else { k as f64 * interval }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Ends inside an interval divide it, and its own end keeps output and comparison. Ends at its borders, outside and twice add nothing.
-    #[test]
-    fn further_ends_divide_intervals() {
-        let interval = |from, to, due| Interval { from, to, steps: 1, due, jump: due, compared: due };
-        let schedule =
-            Schedule { intervals: vec![interval(0.0, 1.0, true), interval(1.0, 3.0, true)], samples: Vec::new() };
-        let divided = schedule.with_ends(&[0.0, 0.25, 0.25, 0.5, 1.0, 2.0, 3.0, 4.0]).intervals;
-        let expected = [(0.0, 0.25, false), (0.25, 0.5, false), (0.5, 1.0, true), (1.0, 2.0, false), (2.0, 3.0, true)];
-        assert_eq!(divided, expected.map(|(from, to, due)| interval(from, to, due)));
-    }
-}
