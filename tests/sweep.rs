@@ -269,9 +269,9 @@ fn a_killed_case_goes_on_from_its_checkpoint() {
     }
 }
 
-/// Of a case whose folder goes away only the tables of `[collect]` are written: its checkpoint is of no use to a list that reads others.
+/// A case whose folder goes away writes no table: its checkpoint has the numbers found so far, and is of no use to another list.
 #[test]
-fn a_checkpoint_without_the_table_that_is_read_begins_again() {
+fn a_checkpoint_of_other_numbers_begins_again() {
     let sweep = SWEEP.replace("steps = 5", "steps = 1").replace("[1.0, 2.0, 4.0]", "[1.0]");
     let folder = files(&sweep);
     let folder = folder.path();
@@ -298,7 +298,7 @@ fn a_checkpoint_without_the_table_that_is_read_begins_again() {
         case.join("run.checkpoint").exists()
     });
     assert!(killed, "it always came to its end without a checkpoint");
-    assert!(case.join("bodies.csv").exists() && !case.join("energy.csv").exists() && !case.join("links.csv").exists());
+    assert!(!["bodies.csv", "energy.csv", "run.log", "run.list"].iter().any(|file| case.join(file).exists()));
     fs::write(folder.join("s.toml"), kept).unwrap();
     assert!(rdsolve(folder, &["sweep", "s.toml", "-o", "killed"]).status.success());
     let summary = |out: &str| fs::read_to_string(folder.join(out).join("summary.csv")).unwrap();
@@ -635,6 +635,42 @@ fn bad_files_are_errors_with_their_places() {
     fs::write(folder.join("s.toml"), SWEEP.replace("deck.toml", "none.toml")).unwrap();
     assert_eq!(rdsolve(folder, &["sweep", "s.toml"]).status.code(), Some(6));
     assert_eq!(rdsolve(folder, &["sweep", "none.toml"]).status.code(), Some(6));
+}
+
+/// Without folders a case that a signal stops leaves a checkpoint alone, goes on from there, and has the numbers of an undisturbed run. The rows
+/// before the checkpoint have some of them, and those after it the others.
+#[test]
+#[cfg(unix)]
+fn a_stopped_case_without_files_goes_on() {
+    let collect = "[collect]\nearly = { at = \"block\", quantity = \"z\", time = 1.0 }\n\
+                   end = { at = \"block\", quantity = \"vz\", time = \"end\" }\n\
+                   kinetic = { at = \"energy\", quantity = \"kinetic\", peak = \"max\" }\n";
+    let sweep = format!("keep = \"summary\"\ndeck = \"deck.toml\"\n[vary]\n\"bodies.block.mass\" = [1.0]\n{collect}");
+    let folder = files(&sweep);
+    let folder = folder.path();
+    let long = DECK.replace("end_time = 1.0", "end_time = 4000.0").replace("[output]", "[output]\nevery = 500");
+    fs::write(folder.join("deck.toml"), long).unwrap();
+    fs::write(folder.join("all.toml"), sweep.replace("keep = \"summary\"\n", "")).unwrap();
+    assert!(rdsolve(folder, &["sweep", "all.toml", "-o", "all"]).status.success());
+    let case = folder.join("stopped").join(&rows(folder, "all/cases.csv")[1][1]);
+    let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin("rdsolve"));
+    command.current_dir(folder).args(["sweep", "s.toml", "-o", "stopped"]).stdout(Stdio::null());
+    let mut process = command.stderr(Stdio::piped()).spawn().unwrap();
+    while !case.join("run.lock").exists() {
+        assert!(process.try_wait().unwrap().is_none(), "it came to its end before it was stopped");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    // The steps begin a millisecond later, and take seconds.
+    std::thread::sleep(Duration::from_millis(300));
+    std::process::Command::new("kill").args(["-TERM", &process.id().to_string()]).status().unwrap();
+    assert_eq!(process.wait_with_output().unwrap().status.code(), Some(75));
+    let names: Vec<_> = fs::read_dir(&case).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(names, ["run.checkpoint"]);
+    assert_eq!(rows(folder, "stopped/summary.csv")[1][2], "pending");
+    assert!(rdsolve(folder, &["sweep", "s.toml", "-o", "stopped"]).status.success());
+    let summary = |out: &str| fs::read_to_string(folder.join(out).join("summary.csv")).unwrap();
+    assert_eq!(summary("all"), summary("stopped"));
+    assert!(!case.exists());
 }
 
 /// The summary is the same whatever is kept, whoever runs the cases and however often; folders that are not kept leave one file a process.

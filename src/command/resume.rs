@@ -42,6 +42,7 @@ pub fn checkpoint_origin(loaded: &Loaded, deck: String, mesh_error: bool) -> Che
         is_over: false,
         files: mesh.chain(records).collect(),
         mesh_error,
+        numbers: String::new(),
         instructions: instructions(),
     }
 }

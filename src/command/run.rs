@@ -25,6 +25,7 @@ use super::watchers::{Watchers, stage_begins};
 use base::diagnostic::{Diagnostic, Source};
 use model::{Model, StepLength};
 use results::checkpoint::{Checkpoint, CheckpointOrigin};
+use results::collected::Collected;
 use results::error_bars::ErrorBars;
 use results::log::Log;
 use results::marks::SceneMarks;
@@ -32,7 +33,7 @@ use results::result_json::{
     ReportedCounts, ReportedErrors, ReportedMasses, ReportedMesh, ReportedStepError, RunOrigin, RunResult, Sizes,
     Status, Timings, peak_memory_bytes,
 };
-use results::{FolderLock, claim, listed, wanted};
+use results::{Files, FolderLock, claim, listed, wanted};
 use solve::plan::Plan;
 use solve::plan::explain::{explain, mass_added};
 use solve::system::System;
@@ -81,6 +82,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
         overwrite: args.overwrite || args.resume,
         checkpoints: Some(checkpoints),
         marks: true,
+        only: None,
         quiet: args.quiet,
         mesh_error: args.mesh_error,
         chosen: chosen.as_ref(),
@@ -96,11 +98,11 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
         let _lock = FolderLock::make(&folder)?;
         job.compute(&mut run, checkpoint.flatten())
     });
-    let (end, result, told) = computed.map_err(|error| {
+    let ended = computed.map_err(|error| {
         complain(&format!("cannot write results: {error}"));
         Exit::InputOutput
     })?;
-    job.conclude(&end, &result, told)
+    job.conclude(ended)
 }
 
 /// A variant of a deck that is one case of a sweep.
@@ -113,17 +115,30 @@ pub struct Case<'a> {
     pub deck: &'a str,
     /// The digests of the files that the sweep has found when it began.
     pub files: &'a HashMap<PathBuf, Vec<u8>>,
-    /// The only tables that are read; `None`: all are kept.
-    pub only: Option<Vec<&'static str>>,
+    /// The numbers that are all that is kept; `None`: the files are.
+    pub only: Option<&'a [Collected]>,
 }
 
-/// Runs a variant of a deck on one thread, without messages, in a separate folder, and leaves its result unmarked. It continues from the
+/// The end of a case.
+pub struct CaseEnd {
+    /// The kind of end.
+    pub status: Status,
+    /// Its reason.
+    pub reason: String,
+    /// The warnings of the run.
+    pub warnings: Vec<String>,
+    /// The numbers that are all that is kept, in their order.
+    pub numbers: Option<Vec<Option<f64>>>,
+}
+
+/// Runs a variant of a deck on one thread, without messages, in a separate folder, and leaves its result unmarked. Where numbers are all that is
+/// kept, no file is written unless a checkpoint is. The run continues from the
 /// checkpoint of a stopped run, or of a killed run whose deck requests checkpoints.
 ///
 /// # Errors
 /// The obstacle: errors of the deck as text, or an error of input/output.
-pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<Status, CaseFault> {
-    let Case { sets, folder, deck, files, ref only } = *case;
+pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<CaseEnd, CaseFault> {
+    let Case { sets, folder, deck, files, only } = *case;
     let began = Instant::now();
     let faults = |problems: &[Diagnostic], source: &Source| {
         let errors = problems.iter().filter(|problem| problem.is_error());
@@ -134,9 +149,6 @@ pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<Status
     let (mut loaded, chosen) = settle(loaded, 1, stop).map_err(|(problems, source)| faults(&problems, &source))?;
     go_on_unless(stop)?;
     refuse_changed(&loaded, files)?;
-    for model in std::iter::once(&mut loaded.model).chain(&mut loaded.later) {
-        model.output.only.clone_from(only);
-    }
     let read_s = began.elapsed().as_secs_f64();
     let planning = Instant::now();
     let (system, plan, warnings) = prepare(&mut loaded, 1).map_err(|unfit| match unfit {
@@ -152,18 +164,22 @@ pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<Status
         folder,
         overwrite: true,
         checkpoints: Some(CheckpointsWanted {
-            origin: checkpoint_origin(&loaded, deck.to_owned(), false),
+            origin: CheckpointOrigin {
+                numbers: only.map_or(String::new(), |only| format!("{only:?}")),
+                ..checkpoint_origin(&loaded, deck.to_owned(), false)
+            },
             apart: loaded.model.output.checkpoint,
             keeps_last: false,
         }),
         marks: false,
+        only,
         quiet: true,
         mesh_error: false,
         chosen: chosen.as_ref(),
         threads: 1,
         stop,
         began,
-        plan: explained(&loaded, (&plan, &system), chosen.as_ref()),
+        plan: only.map_or_else(|| explained(&loaded, (&plan, &system), chosen.as_ref()), |_| Vec::new()),
         sizes: sizes(&loaded, plan.dofs.unknowns(), system.multipliers()),
         timings: Timings { read_s, plan_s: planning.elapsed().as_secs_f64(), ..Timings::default() },
     };
@@ -172,11 +188,10 @@ pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<Status
             Err(error) if [ErrorKind::InvalidData, ErrorKind::NotFound].contains(&error.kind()) => {
                 Checkpoint::remove(folder).map_err(CaseFault::Io)?;
             }
-            done => return done.map(|(end, ..)| end.status).map_err(CaseFault::Io),
+            done => return done.map(CaseEnd::from).map_err(CaseFault::Io),
         }
     }
-    let (end, ..) = job.compute(&mut made()?, None).map_err(CaseFault::Io)?;
-    Ok(end.status)
+    job.compute(&mut made()?, None).map(CaseEnd::from).map_err(CaseFault::Io)
 }
 
 /// Ends a case before it writes anything, if a signal came during the possibly long reading and planning.
@@ -268,6 +283,21 @@ fn sizes(loaded: &Loaded, unknowns: usize, multipliers: usize) -> Sizes {
     Sizes { nodes: model.nodes.len(), bodies: model.bodies.len(), elements, unknowns, multipliers }
 }
 
+/// One run that has come to an end.
+struct Ended {
+    end: End,
+    result: RunResult,
+    /// The modes and the energies in lines for the terminal.
+    lines: Vec<String>,
+    numbers: Option<Vec<Option<f64>>>,
+}
+
+impl From<Ended> for CaseEnd {
+    fn from(Ended { result: RunResult { status, reason, warnings, .. }, numbers, .. }: Ended) -> CaseEnd {
+        CaseEnd { status, reason, warnings, numbers }
+    }
+}
+
 /// One run with all that is known of it before it begins.
 struct Job<'a> {
     loaded: &'a Loaded,
@@ -277,6 +307,8 @@ struct Job<'a> {
     checkpoints: Option<CheckpointsWanted>,
     /// True if the result is final once written; otherwise the caller marks it, and removes the checkpoint.
     marks: bool,
+    /// The numbers that are all that is kept; `None`: the files are.
+    only: Option<&'a [Collected]>,
     quiet: bool,
     mesh_error: bool,
     /// The settings that `accuracy` has chosen.
@@ -306,9 +338,9 @@ impl Job<'_> {
     }
 
     /// Runs the scene, or the rest of it after a checkpoint, and writes its files; an error is one of input/output.
-    fn compute(&self, run: &mut Run, checkpoint: Option<Checkpoint>) -> io::Result<(End, RunResult, Vec<String>)> {
-        let resumes = checkpoint.is_some();
-        let log = self.begin(resumes)?;
+    fn compute(&self, run: &mut Run, checkpoint: Option<Checkpoint>) -> io::Result<Ended> {
+        let (resumes, writes) = (checkpoint.is_some(), self.only.is_none());
+        let log = if writes { self.begin(resumes)? } else { Log::unread() };
         let mut watchers = self.watchers(log, resumes, run)?;
         let looping = Instant::now();
         let mut told = StagesTold::default();
@@ -357,14 +389,16 @@ impl Job<'_> {
             errors,
             joint_violation: told.joint_violation,
             rotation_drift: (told.rotation_drift > 0.0).then_some(told.rotation_drift),
-            peak_memory_bytes: peak_memory_bytes(),
+            peak_memory_bytes: if writes { peak_memory_bytes() } else { None },
             warnings,
             expectations,
-            marks: SceneMarks::of(&self.loaded.models()),
+            marks: if writes { SceneMarks::of(&self.loaded.models()) } else { SceneMarks::default() },
         };
         let serves = end.status == Status::Stopped || watchers.checkpoints.is_some_and(|last| last.is_over());
-        self.leave(&result, serves)?;
-        Ok((end, result, lines))
+        if writes {
+            self.leave(&result, serves)?;
+        }
+        Ok(Ended { end, result, lines, numbers: watchers.files.numbers() })
     }
 
     /// Writes the result, and removes a useless checkpoint; for a case the caller does both when its files are safe.
@@ -399,10 +433,9 @@ impl Job<'_> {
         // Bars are those of one run from t = 0 on.
         let tells_errors = (by_error(model) || self.tells_mesh_error()) && model.analysis.stage.is_none();
         let options = [self.quiet, tells_errors];
-        let mut watchers = match resumes {
-            true => Watchers::waiting(log, self.folder, model, options),
-            false => Watchers::new(log, self.folder, model, options)?,
-        };
+        let files = Files::waiting(self.folder, self.only.map(<[Collected]>::to_vec));
+        let files = if resumes { files } else { files.begin(model)? };
+        let mut watchers = Watchers::new(log, files, model, options);
         watchers.checkpoints =
             self.checkpoints.clone().map(|wanted| Checkpoints::new(self.folder, wanted).after_another(resumes));
         if let Some(chosen) = self.chosen {
@@ -479,12 +512,12 @@ impl Job<'_> {
     }
 
     /// Says how the run ended: failures on standard error, the verdicts and the folder on standard output.
-    fn conclude(&self, end: &End, result: &RunResult, told: Vec<String>) -> Result<(), Exit> {
+    fn conclude(&self, Ended { end, result, lines, .. }: Ended) -> Result<(), Exit> {
         let judged = result.expectations.iter().filter(|verdict| !self.quiet || !verdict.passed);
         let mut text: String = judged.map(|verdict| format!("{}\n", line(verdict))).collect();
         if !self.quiet {
-            let RunResult { timings, counts, .. } = result;
-            text.extend(told.iter().map(|line| format!("{line}\n")));
+            let RunResult { timings, counts, .. } = &result;
+            text.extend(lines.iter().map(|line| format!("{line}\n")));
             text += &format!(
                 "{} steps, {} iterations, {} factorizations; time stepping {:.4} s of {:.4} s; results in {}\n",
                 counts.steps,

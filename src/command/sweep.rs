@@ -6,13 +6,13 @@ use super::exit::Exit;
 use super::folder::named_after;
 use super::load::text;
 use super::resume::deck_digest;
-use super::run::{Case, CaseFault, run_case};
+use super::run::{Case, CaseEnd, CaseFault, run_case};
 use super::signals::{EndAtOnce, stop_on_signals};
 use super::version::VERSION;
 use base::diagnostic::Source;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use results::result_json::Status;
+use results::collected::Collected;
 use results::{SharedLock, replace};
 use std::fs;
 use std::io::{self, IsTerminal};
@@ -23,9 +23,9 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex};
 use sweep::alike::alike;
-use sweep::case_state::{CaseOutcome, CaseState};
+use sweep::case_state::{CaseOutcome, CaseState, one_line};
 use sweep::cases::Cases;
-use sweep::file::{self, Collected, SweepFile};
+use sweep::file::{self, SweepFile};
 use sweep::folder::{FAILURE, SweepFolder};
 use sweep::marks::{Computed, mark_all};
 
@@ -250,9 +250,6 @@ impl Sweep<'_> {
     /// Runs one case, unless another process does or has done it. Its own errors are noted in its folder.
     fn run_one(&self, case: usize, pool: &Pool) -> io::Result<Option<Computed>> {
         let (folder, sets) = (self.folder.case(case), self.cases.sets(case));
-        if !(pool.is_open)(case) {
-            return Ok(None);
-        }
         fs::create_dir_all(&folder)?;
         let lock = match pool.locks.take(&folder) {
             Err(error) if error.kind() == io::ErrorKind::ResourceBusy => return Ok(None),
@@ -275,18 +272,20 @@ impl Sweep<'_> {
         let what = Case { sets: &sets, folder: &folder, deck: pool.deck, files: &self.folder.files, only };
         let ran = catch_unwind(AssertUnwindSafe(|| run_case(source, &what, self.stop)));
         let why = match ran {
-            Ok(Ok(status)) => {
-                let is_stopped = status == Status::Stopped;
-                return Ok(Some(Computed { folder, lock, is_stopped }));
+            Ok(Ok(CaseEnd { status, reason, warnings, numbers })) => {
+                let outcome = CaseOutcome::of(status, &reason, &warnings);
+                return Ok(Some(Computed { folder, lock, outcome, numbers }));
             }
             Ok(Err(CaseFault::Stopped)) => return Ok(None),
             Ok(Err(CaseFault::Io(error))) => return Err(error),
             Ok(Err(CaseFault::Deck(text))) => text,
             Err(_) => "the program itself has a fault: the run of this case has panicked".to_owned(),
         };
-        replace(&failure, why.as_bytes())?;
-        self.folder.let_go(vec![folder])?;
-        drop(lock);
+        let outcome = CaseOutcome::without_result(CaseState::Failed(one_line(&why)));
+        if only.is_none() {
+            replace(&failure, why.as_bytes())?;
+        }
+        self.folder.let_go(vec![Computed { folder, lock, outcome, numbers: None }])?;
         Ok(None)
     }
 

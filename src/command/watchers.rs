@@ -13,7 +13,6 @@ use results::progress::Progress;
 use results::{Files, FilesMark};
 use solve::{Frame, Observer, OtherRun};
 use std::io;
-use std::path::Path;
 
 /// All watchers of the run, in the order of their calls.
 pub struct Watchers {
@@ -34,27 +33,12 @@ pub struct Watchers {
 }
 
 impl Watchers {
-    /// The watchers of a run of this model, which writes into an existing folder; with `bars`, errors are estimated.
-    ///
-    /// # Errors
-    /// A file cannot be made.
-    pub fn new(log: Log, folder: &Path, model: &Model, [quiet, bars]: [bool; 2]) -> io::Result<Watchers> {
-        Ok(Watchers {
-            log,
-            files: Files::open(folder, model)?,
-            expectations: Expectations::new(model),
-            bars: bars.then(|| ErrorBars::new(model)),
-            progress: Progress::new(quiet),
-            modes: Vec::new(),
-            checkpoints: None,
-        })
-    }
-
-    /// The watchers of a continued run in a folder; [`Watchers::go_on`] sets the place of the continuation.
-    pub fn waiting(log: Log, folder: &Path, model: &Model, [quiet, bars]: [bool; 2]) -> Watchers {
+    /// The watchers of a run of this model; with `bars`, errors are estimated. For a continued run, [`Watchers::go_on`] sets the place of the
+    /// continuation.
+    pub fn new(log: Log, files: Files, model: &Model, [quiet, bars]: [bool; 2]) -> Watchers {
         Watchers {
             log,
-            files: Files::waiting(folder),
+            files,
             expectations: Expectations::new(model),
             bars: bars.then(|| ErrorBars::new(model)),
             progress: Progress::new(quiet),

@@ -74,7 +74,6 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
         parts: flag(&table.parts, false),
         joints: flag(&table.joints, false),
         fields,
-        only: None,
         checkpoint: report.positive("checkpoint", &table.checkpoint),
     };
     Selection { output, all_nodes: word == Some("all") }
@@ -99,7 +98,6 @@ fn by_default<'d>(scene: &Scene<'d>, nodes: Vec<usize>, units: Option<String>, r
         parts: false,
         joints: false,
         fields: None,
-        only: None,
         checkpoint: None,
     }
 }

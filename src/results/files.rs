@@ -1,5 +1,7 @@
-//! The files that grow with a run: the deck selects the files, and every accepted step goes to each.
+//! The files that grow with a run: the deck selects the files, and every accepted step goes to each. A sweep that keeps no folders has the
+//! collected numbers found in the rows instead.
 
+use super::collected::{Collected, RowSearch, found};
 use super::disk::at;
 use super::envelopes::Envelopes;
 use super::expect::needs;
@@ -32,14 +34,29 @@ struct OpenTable {
 }
 
 impl OpenTable {
-    fn open(dir: &Path, kind: &'static TableKind, model: &Model) -> io::Result<OpenTable> {
+    /// The table as a file, or as a search for the numbers wanted of it; `None` if none are.
+    fn open(
+        dir: &Path,
+        kind: &'static TableKind,
+        model: &Model,
+        only: Option<&[Collected]>,
+    ) -> io::Result<Option<OpenTable>> {
         let stage = model.analysis.stage.as_ref();
-        let mut file = TableFile::open(dir, kind.file, &kind.header(model))?;
+        let mut file = match only.map(|wanted| search_of(kind, model, wanted)) {
+            None => TableFile::open(dir, kind.file, &kind.header(model).join(","))?,
+            Some(Some(search)) => TableFile::searched(search, TableMark::of(kind.file)),
+            Some(None) => return Ok(None),
+        };
         if let Some(stage) = stage {
             file.begin_stage(&stage.name)?;
         }
-        Ok(OpenTable { kind, file, write: Some((kind.rows)(model)) })
+        Ok(Some(OpenTable { kind, file, write: Some((kind.rows)(model)) }))
     }
+}
+
+/// The search for the numbers wanted of a table; `None` if it has none of them.
+fn search_of(kind: &TableKind, model: &Model, wanted: &[Collected]) -> Option<RowSearch> {
+    RowSearch::new(kind, &kind.header(model), wanted)
 }
 
 /// Writes the files that the deck selects. [`Files::finish`] closes them after success and after failure.
@@ -50,6 +67,8 @@ pub struct Files {
     envelopes: Envelopes,
     frd: Option<FrdFile>,
     flushed: Instant,
+    /// The numbers that are all that is kept; `None`: the files are.
+    only: Option<Vec<Collected>>,
 }
 
 /// How far the files of a run had come at a checkpoint.
@@ -68,26 +87,47 @@ impl Files {
     /// # Errors
     /// A file cannot be made.
     pub fn open(dir: &Path, model: &Model) -> io::Result<Files> {
-        fs::create_dir_all(dir).map_err(|e| at(dir, e))?;
-        let wanted = TABLES.iter().copied().filter(|kind| kind.is_written(model));
-        let tables = wanted.map(|kind| OpenTable::open(dir, kind, model)).collect::<io::Result<_>>()?;
-        let format = model.output.drawn().map(|files| files.format);
-        let fields = (format == Some(FieldFormat::Vtu)).then(|| Fields::open(dir, model)).transpose()?;
-        let frd = (format == Some(FieldFormat::Frd)).then(|| FrdFile::open(dir, model)).transpose()?;
-        let envelopes = Envelopes::of(model);
-        Ok(Files { dir: dir.to_owned(), tables, fields, frd, envelopes, flushed: Instant::now() })
+        Files::waiting(dir, None).begin(model)
     }
 
-    /// No files in a folder that holds those of a checkpoint, until they are opened by [`Files::go_on`].
-    pub fn waiting(dir: &Path) -> Files {
-        Files {
-            dir: dir.to_owned(),
-            tables: Vec::new(),
-            fields: None,
-            frd: None,
-            envelopes: Envelopes::default(),
-            flushed: Instant::now(),
+    /// No files yet, until [`Files::begin`] makes them or [`Files::go_on`] opens those of a checkpoint. With `only`, nothing but these
+    /// numbers is kept, and no file is made.
+    pub fn waiting(dir: &Path, only: Option<Vec<Collected>>) -> Files {
+        let (dir, tables, envelopes) = (dir.to_owned(), Vec::new(), Envelopes::default());
+        Files { dir, tables, fields: None, frd: None, envelopes, flushed: Instant::now(), only }
+    }
+
+    /// Creates the folder and the files of this model.
+    ///
+    /// # Errors
+    /// A file cannot be made.
+    pub fn begin(mut self, model: &Model) -> io::Result<Files> {
+        let dir = &self.dir;
+        let kept = model.output.fields.filter(|_| self.only.is_none()).map(|files| files.format);
+        if self.only.is_none() {
+            fs::create_dir_all(dir).map_err(|e| at(dir, e))?;
         }
+        self.fields = (kept == Some(FieldFormat::Vtu)).then(|| Fields::open(dir, model)).transpose()?;
+        self.frd = (kept == Some(FieldFormat::Frd)).then(|| FrdFile::open(dir, model)).transpose()?;
+        self.envelopes = Envelopes::of(model);
+        self.open_tables(model)?;
+        Ok(self)
+    }
+
+    /// Opens the tables of a model that are not open yet.
+    fn open_tables(&mut self, model: &Model) -> io::Result<()> {
+        for &kind in TABLES.iter().filter(|kind| (kind.wanted)(model)) {
+            if !self.tables.iter().any(|table| std::ptr::eq(table.kind, kind)) {
+                self.tables.extend(OpenTable::open(&self.dir, kind, model, self.only.as_deref())?);
+            }
+        }
+        Ok(())
+    }
+
+    /// The numbers that are all that is kept, `None` for each that no row has; `None` where files are kept.
+    pub fn numbers(&self) -> Option<Vec<Option<f64>>> {
+        let only = self.only.as_ref()?;
+        Some(found(self.tables.iter().filter_map(|table| table.file.search()), only.len()))
     }
 
     /// Goes on with the files of a checkpoint in the stage of this model, as they were then.
@@ -96,14 +136,18 @@ impl Files {
     /// A file cannot be opened, or has changed since the checkpoint.
     pub fn go_on(&mut self, model: &Model, mark: FilesMark) -> io::Result<()> {
         let has = |kind: &TableKind| mark.tables.iter().any(|mark| mark.file == kind.file);
-        if let Some(kind) = TABLES.iter().find(|kind| kind.is_written(model) && !has(kind)) {
+        if let Some(kind) = TABLES.iter().find(|kind| self.only.is_none() && (kind.wanted)(model) && !has(kind)) {
             let message = format!("the checkpoint has no {}: it is of a run with other output", kind.file);
             return Err(at(&self.dir, io::Error::new(io::ErrorKind::InvalidData, message)));
         }
         for mark in mark.tables {
             let Some(&kind) = TABLES.iter().find(|kind| kind.file == mark.file) else { continue };
-            let file = TableFile::reopen(&self.dir, mark)?;
-            self.tables.push(OpenTable { kind, file, write: kind.is_written(model).then(|| (kind.rows)(model)) });
+            let search = self.only.as_ref().and_then(|wanted| search_of(kind, model, wanted));
+            let file = match search {
+                Some(search) => TableFile::searched(search, mark),
+                None => TableFile::reopen(&self.dir, mark)?,
+            };
+            self.tables.push(OpenTable { kind, file, write: (kind.wanted)(model).then(|| (kind.rows)(model)) });
         }
         if let Some(mark) = mark.fields {
             let mut fields = Fields::open(&self.dir, model)?;
@@ -141,13 +185,9 @@ impl Files {
         let stage = model.analysis.stage.as_ref().map_or("", |stage| &stage.name);
         for table in &mut self.tables {
             table.file.begin_stage(stage)?;
-            table.write = table.kind.is_written(model).then(|| (table.kind.rows)(model));
+            table.write = (table.kind.wanted)(model).then(|| (table.kind.rows)(model));
         }
-        for &kind in TABLES.iter().filter(|kind| kind.is_written(model)) {
-            if !self.tables.iter().any(|table| std::ptr::eq(table.kind, kind)) {
-                self.tables.push(OpenTable::open(&self.dir, kind, model)?);
-            }
-        }
+        self.open_tables(model)?;
         if let Some(fields) = &mut self.fields {
             fields.next_stage(model)?;
         }
@@ -186,9 +226,9 @@ impl Files {
 
 /// Names of the tables and lists that a run of this model writes; grids come with the steps.
 pub fn names(model: &Model) -> Vec<&'static str> {
-    let tables = TABLES.iter().copied().filter(|kind| kind.is_written(model)).map(|kind| kind.file);
+    let tables = TABLES.iter().copied().filter(|kind| (kind.wanted)(model)).map(|kind| kind.file);
     let lists = |format| if format == FieldFormat::Frd { vec![frd::NAME] } else { LISTS.to_vec() };
-    tables.chain(model.output.drawn().into_iter().flat_map(|files| lists(files.format))).collect()
+    tables.chain(model.output.fields.into_iter().flat_map(|files| lists(files.format))).collect()
 }
 
 impl Observer for Files {
@@ -256,7 +296,7 @@ impl Observer for Files {
         if model.analysis.begin > 0.0 {
             return self.tables.iter_mut().try_for_each(|table| table.file.withdraw_stage());
         }
-        *self = Files::open(&self.dir, model)?;
+        *self = Files::waiting(&self.dir, self.only.take()).begin(model)?;
         Ok(())
     }
 }
@@ -264,11 +304,11 @@ impl Observer for Files {
 /// The files that a run of this model writes, when, and how large they become.
 pub fn listed(model: &Model, plan: &Plan) -> String {
     let output = &model.output;
-    let names: Vec<&str> = TABLES.iter().filter(|kind| kind.is_written(model)).map(|kind| kind.file).collect();
+    let names: Vec<&str> = TABLES.iter().filter(|kind| (kind.wanted)(model)).map(|kind| kind.file).collect();
     let chosen = output.cadence_is_open && output.cadence != Cadence::Steps(1);
     let open = if chosen { ", as rows would be many and `[output]` has neither `every` nor `interval`" } else { "" };
     let mut groups = vec![format!("{} ({}{open})", names.join(", "), in_words(output.cadence))];
-    groups.extend(output.drawn().map(|files| format!("fields ({})", in_words(files.cadence))));
+    groups.extend(output.fields.map(|files| format!("fields ({})", in_words(files.cadence))));
     groups.extend(output.checkpoint.map(|apart| format!("a checkpoint every {apart} s of run time")));
     groups.push(size_in_words(model, plan));
     groups.join("; ")

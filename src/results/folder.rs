@@ -24,7 +24,7 @@ pub fn claim(dir: &Path, overwrite: bool, models: &[&Model], read: &[PathBuf]) -
     }
     let older = ours(dir)?;
     let mut written: Vec<&str> = models.iter().copied().flat_map(names).collect();
-    let draws = models.iter().any(|model| model.output.drawn().is_some());
+    let draws = models.iter().any(|model| model.output.fields.is_some());
     written.extend([log::NAME, result_json::NAME, checkpoint::NAME]);
     let in_the_way = |name: &&String| {
         let is_next = written.contains(&name.as_str()) || (draws && fields::is_grid(name));

@@ -6,6 +6,7 @@
 #![warn(missing_docs)]
 
 pub mod checkpoint;
+pub mod collected;
 pub mod compare;
 pub mod curve;
 mod disk;

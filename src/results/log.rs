@@ -20,7 +20,8 @@ const MOST_LINES: usize = 20;
 /// The log of a run. Its lines reach the file at once: they are few, and the last ones matter when a run dies.
 pub struct Log {
     path: PathBuf,
-    file: File,
+    /// `None` where nobody reads the log.
+    file: Option<File>,
     /// The number of negative pivots and the increment of the load in the last step of a path.
     path_before: Option<(usize, f64)>,
     cut: Events,
@@ -70,8 +71,13 @@ impl Log {
         };
         let open = |()| if resume { go_on() } else { create(&path) };
         let file = std::fs::create_dir_all(dir).and_then(open).map_err(|e| at(&path, e))?;
+        Ok(Log { path, file: Some(file), ..Log::unread() })
+    }
+
+    /// A log that nobody reads, without file.
+    pub fn unread() -> Log {
         let [cut, passed, broken] = [(); 3].map(|()| Events::default());
-        Ok(Log { path, file, path_before: None, cut, passed, broken })
+        Log { path: PathBuf::new(), file: None, path_before: None, cut, passed, broken }
     }
 
     /// Writes one or more lines; the last may do without its line break.
@@ -79,8 +85,9 @@ impl Log {
     /// # Errors
     /// The file cannot be written; the error names it.
     pub fn say(&mut self, text: &str) -> io::Result<()> {
+        let Some(file) = &mut self.file else { return Ok(()) };
         let text = format!("{}\n", plain(text.trim_end()));
-        self.file.write_all(text.as_bytes()).map_err(|e| at(&self.path, e))
+        file.write_all(text.as_bytes()).map_err(|e| at(&self.path, e))
     }
 
     /// Writes a warning about the deck or its results.

@@ -4,7 +4,7 @@ use super::disk::{at, create, replace};
 use super::error_bars::ErrorBar;
 use super::expect::Verdict;
 use super::marks::SceneMarks;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use solve::system::{MassScaling, ScaledPart};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ pub const NAME: &str = "result.json";
 pub const UNMARKED: &str = "result.json.tmp";
 
 /// The kind of end that a run came to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
     /// The run came to its end, and all expectations are met.

@@ -66,7 +66,7 @@ pub struct TableKind {
     pub about: &'static str,
     /// The columns behind `step` and `time`, group by group.
     pub columns: &'static [&'static [Column]],
-    /// Whether the deck requests the table and the scene has rows for it, as [`TableKind::is_written`] asks.
+    /// Whether the deck requests the table and the scene has rows for it.
     pub wanted: fn(&Model) -> bool,
     /// The quantities that the solver must compute for its rows.
     pub needs: Wanted,
@@ -93,11 +93,6 @@ pub struct Answers {
 }
 
 impl TableKind {
-    /// Whether a run of this model writes the table.
-    pub fn is_written(&self, model: &Model) -> bool {
-        (self.wanted)(model) && model.output.only.as_ref().is_none_or(|only| only.contains(&self.file))
-    }
-
     /// All columns in their order, `step` and `time` first.
     pub fn columns(&self) -> impl Iterator<Item = Column> {
         [STEP, TIME].into_iter().chain(self.columns.iter().copied().flatten().copied())
@@ -109,8 +104,8 @@ impl TableKind {
         self.columns().take(self.columns().count() - left_out)
     }
 
-    /// The header row, without a line break; in a deck of stages or of load cases, each row names its own.
-    pub fn header(&self, model: &Model) -> String {
+    /// The names in the header row; in a deck of stages or of load cases, each row names its own.
+    pub fn header(&self, model: &Model) -> Vec<&'static str> {
         let mut names: Vec<&str> = self.columns_of(model).map(|column| column.name).collect();
         if !model.cases.list.is_empty() {
             names.insert(2, CASE);
@@ -118,6 +113,6 @@ impl TableKind {
         if model.analysis.stage.is_some() {
             names.insert(2, STAGE);
         }
-        names.join(",")
+        names
     }
 }

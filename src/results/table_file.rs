@@ -1,9 +1,10 @@
-//! A comma separated file that grows by whole rows, without allocating.
+//! A table that grows by whole rows, without allocating: a comma separated file, or a search that keeps the collected numbers alone.
 //!
 //! Rows collect in memory, and one call writes all of them: a call for each page takes longer than formatting the numbers. If the file
 //! cannot grow, it is cut back to its last whole row. A run that is killed during the call may tear a row, which readers omit. The csv crate
 //! is for readers: its writer hands over whatever fills its buffer.
 
+use super::collected::{Found, RowSearch};
 use super::disk::{at, create, is_same};
 use super::table::WriteRow;
 use base::row_text::RowText;
@@ -18,7 +19,7 @@ const ENOUGH: usize = 1 << 16;
 /// A table of results that is being written.
 pub struct TableFile {
     path: PathBuf,
-    file: File,
+    target: Target,
     /// The number of bytes in the file, all of whole rows.
     written: u64,
     /// The finished rows not yet written, and the current row.
@@ -31,7 +32,15 @@ pub struct TableFile {
     case: String,
     /// The number of bytes before the rows of the stage under way.
     before_stage: u64,
+    /// The numbers found before them.
+    found_before: Vec<Found>,
     empty: Option<EmptyFields>,
+}
+
+/// Where the rows go.
+enum Target {
+    File(File),
+    Search(Box<RowSearch>),
 }
 
 /// Fields that stayed empty because their number is not finite.
@@ -53,10 +62,19 @@ pub struct TableMark {
     written: u64,
     stage: String,
     before_stage: u64,
+    found: Vec<Found>,
+    found_before: Vec<Found>,
     empty: Option<EmptyFields>,
 }
 
-keep!(TableMark: Default { file, written, stage, before_stage, empty });
+impl TableMark {
+    /// The beginning of a table.
+    pub fn of(file: &str) -> TableMark {
+        TableMark { file: file.to_owned(), ..TableMark::default() }
+    }
+}
+
+keep!(TableMark: Default { file, written, stage, before_stage, found, found_before, empty });
 
 impl TableFile {
     /// Makes a new file with its header row.
@@ -66,7 +84,8 @@ impl TableFile {
     pub fn open(dir: &Path, name: &str, header: &str) -> io::Result<TableFile> {
         let path = dir.join(name);
         let file = create(&path).map_err(|e| at(&path, e))?;
-        let mut table = TableFile::of(path, file);
+        let mut table = TableFile::of(path, Target::File(file));
+        table.rows = RowText::with_capacity(2 * ENOUGH);
         table.rows.line(header);
         table.flush()?;
         Ok(table)
@@ -77,7 +96,7 @@ impl TableFile {
     /// # Errors
     /// The file cannot be opened or cut, or has changed since the checkpoint; the error names it.
     pub fn reopen(dir: &Path, mark: TableMark) -> io::Result<TableFile> {
-        let TableMark { file: name, written, stage, before_stage, empty } = mark;
+        let TableMark { file: name, written, stage, before_stage, empty, .. } = mark;
         let path = dir.join(name);
         let mut file = OpenOptions::new().read(true).append(true).open(&path).map_err(|e| at(&path, e))?;
         if file.metadata().map_err(|e| at(&path, e))?.len() < written {
@@ -87,20 +106,35 @@ impl TableFile {
         }
         let cut = file.set_len(written).and_then(|()| file.seek(io::SeekFrom::End(0)));
         cut.map_err(|e| at(&path, e))?;
-        Ok(TableFile { written, stage, before_stage, empty, ..TableFile::of(path, file) })
+        let rows = RowText::with_capacity(2 * ENOUGH);
+        Ok(TableFile { written, rows, stage, before_stage, empty, ..TableFile::of(path, Target::File(file)) })
+    }
+
+    /// A table without file, of which a search takes the rows; it goes on where the mark was made.
+    pub fn searched(search: RowSearch, mark: TableMark) -> TableFile {
+        let TableMark { file: name, stage, found, found_before, empty, .. } = mark;
+        let mut search = Box::new(search);
+        search.go_back(&found);
+        TableFile { stage, found_before, empty, ..TableFile::of(PathBuf::from(name), Target::Search(search)) }
+    }
+
+    /// The search of a table without file.
+    pub fn search(&self) -> Option<&RowSearch> {
+        if let Target::Search(search) = &self.target { Some(search) } else { None }
     }
 
     /// An empty table.
-    fn of(path: PathBuf, file: File) -> TableFile {
+    fn of(path: PathBuf, target: Target) -> TableFile {
         TableFile {
             path,
-            file,
+            target,
             written: 0,
-            rows: RowText::with_capacity(2 * ENOUGH),
+            rows: RowText::default(),
             time: 0.0,
             stage: String::new(),
             case: String::new(),
             before_stage: 0,
+            found_before: Vec::new(),
             empty: None,
         }
     }
@@ -111,10 +145,13 @@ impl TableFile {
     /// As for [`TableFile::flush`].
     pub fn mark(&mut self) -> io::Result<TableMark> {
         self.flush()?;
-        self.file.sync_data().map_err(|e| at(&self.path, e))?;
+        if let Target::File(file) = &self.target {
+            file.sync_data().map_err(|e| at(&self.path, e))?;
+        }
         let file = self.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        let TableFile { written, stage, before_stage, empty, .. } = self;
-        Ok(TableMark { file, written: *written, stage: stage.clone(), before_stage: *before_stage, empty: *empty })
+        let TableFile { written, before_stage, empty, .. } = *self;
+        let (found, found_before) = (self.found(), self.found_before.clone());
+        Ok(TableMark { file, written, stage: self.stage.clone(), before_stage, found, found_before, empty })
     }
 
     /// Lets all rows to come name this stage.
@@ -123,8 +160,13 @@ impl TableFile {
     /// As for [`TableFile::flush`].
     pub fn begin_stage(&mut self, name: &str) -> io::Result<()> {
         self.flush()?;
-        (self.stage, self.before_stage) = (name.to_owned(), self.written);
+        (self.stage, self.before_stage, self.found_before) = (name.to_owned(), self.written, self.found());
         Ok(())
+    }
+
+    /// The results of the search so far; none of a file.
+    fn found(&self) -> Vec<Found> {
+        self.search().map_or(Vec::new(), RowSearch::so_far)
     }
 
     /// Lets all rows to come name this load case.
@@ -139,8 +181,14 @@ impl TableFile {
     pub fn withdraw_stage(&mut self) -> io::Result<()> {
         self.rows.clear();
         self.written = self.before_stage;
-        let cut = self.file.set_len(self.written).and_then(|()| self.file.seek(io::SeekFrom::End(0)));
-        cut.map(|_| ()).map_err(|e| at(&self.path, e))
+        match &mut self.target {
+            Target::Search(search) => search.go_back(&self.found_before),
+            Target::File(file) => {
+                let cut = file.set_len(self.written).and_then(|()| file.seek(io::SeekFrom::End(0)));
+                cut.map_err(|e| at(&self.path, e))?;
+            }
+        }
+        Ok(())
     }
 
     /// The fields that stayed empty so far, if any did.
@@ -153,35 +201,20 @@ impl TableFile {
     /// # Errors
     /// The file cannot grow; it then ends with the last whole row that it holds, and the rows behind it are lost.
     pub fn flush(&mut self) -> io::Result<()> {
+        let Target::File(file) = &mut self.target else { return Ok(()) };
         // A file that somebody has cut short would get a hole.
-        if self.file.metadata().map_err(|error| at(&self.path, error))?.len() != self.written {
+        if file.metadata().map_err(|error| at(&self.path, error))?.len() != self.written {
             self.rows.clear();
             return Err(self.spoiled());
         }
         let rows = self.rows.bytes();
-        let done = self.file.write_all(rows);
+        let done = file.write_all(rows);
         self.written += match &done {
             Ok(()) => rows.len() as u64,
-            Err(_) => self.cut_back(),
+            Err(_) => cut_back(file, self.written, rows),
         };
         self.rows.clear();
         done.map_err(|e| at(&self.path, e))
-    }
-
-    /// Cuts a file that could not grow back to whole rows, and returns the number of bytes that it has gained.
-    fn cut_back(&mut self) -> u64 {
-        let grown = self.file.metadata().map_or(0, |file| file.len().saturating_sub(self.written)) as usize;
-        let taken = &self.rows.bytes()[..grown.min(self.rows.bytes().len())];
-        let (mut whole, mut is_quoted) = (0, false);
-        for (at, byte) in (1..).zip(taken) {
-            is_quoted ^= *byte == b'"';
-            if *byte == b'\n' && !is_quoted {
-                whole = at;
-            }
-        }
-        // A shorter file always has room.
-        let _ = self.file.set_len(self.written + whole);
-        whole
     }
 
     /// Checks that the file still has its name and holds the written rows, nothing more.
@@ -189,8 +222,9 @@ impl TableFile {
     /// # Errors
     /// Somebody has taken it away, put another in its place or written to it.
     pub fn verify(&self) -> io::Result<()> {
-        let length = self.file.metadata().map_err(|error| at(&self.path, error))?.len();
-        if is_same(&self.file, &self.path) && length == self.written {
+        let Target::File(file) = &self.target else { return Ok(()) };
+        let length = file.metadata().map_err(|error| at(&self.path, error))?.len();
+        if is_same(file, &self.path) && length == self.written {
             return Ok(());
         }
         Err(self.spoiled())
@@ -203,21 +237,43 @@ impl TableFile {
     }
 }
 
+/// Cuts a file that could not grow by these rows back to whole ones, and returns the number of bytes that it has gained.
+fn cut_back(file: &File, written: u64, rows: &[u8]) -> u64 {
+    let grown = file.metadata().map_or(0, |file| file.len().saturating_sub(written)) as usize;
+    let taken = &rows[..grown.min(rows.len())];
+    let (mut whole, mut is_quoted) = (0, false);
+    for (at, byte) in (1..).zip(taken) {
+        is_quoted ^= *byte == b'"';
+        if *byte == b'\n' && !is_quoted {
+            whole = at;
+        }
+    }
+    // A shorter file always has room.
+    let _ = file.set_len(written + whole);
+    whole
+}
+
 impl WriteRow for TableFile {
     fn row(&mut self, step: usize, time: f64) -> &mut dyn WriteRow {
-        self.rows.begin(step);
+        match &mut self.target {
+            Target::File(_) => self.rows.begin(step),
+            Target::Search(search) => search.begin(step),
+        }
         self.time = time;
         self.number(time);
         for name in [&self.stage, &self.case] {
             if !name.is_empty() {
-                self.rows.text(name);
+                put_text(&mut self.target, &mut self.rows, name);
             }
         }
         self
     }
 
     fn count(&mut self, value: usize) -> &mut dyn WriteRow {
-        self.rows.count(value);
+        match &mut self.target {
+            Target::File(_) => self.rows.count(value),
+            Target::Search(search) => search.count(value),
+        }
         self
     }
 
@@ -226,7 +282,10 @@ impl WriteRow for TableFile {
     }
 
     fn numbers(&mut self, values: &[f64]) -> &mut dyn WriteRow {
-        let empty = self.rows.numbers(values);
+        let empty = match &mut self.target {
+            Target::File(_) => self.rows.numbers(values),
+            Target::Search(search) => search.numbers(values),
+        };
         if empty > 0 {
             self.empty.get_or_insert(EmptyFields { since: self.time, count: 0 }).count += empty;
         }
@@ -234,13 +293,24 @@ impl WriteRow for TableFile {
     }
 
     fn text(&mut self, text: &str) -> &mut dyn WriteRow {
-        self.rows.text(text);
+        put_text(&mut self.target, &mut self.rows, text);
         self
     }
 
     fn end(&mut self) -> io::Result<()> {
+        if let Target::Search(search) = &mut self.target {
+            search.end();
+            return Ok(());
+        }
         self.rows.end();
         if self.rows.bytes().len() < ENOUGH { Ok(()) } else { self.flush() }
+    }
+}
+
+fn put_text(target: &mut Target, rows: &mut RowText, text: &str) {
+    match target {
+        Target::File(_) => rows.text(text),
+        Target::Search(search) => search.text(text),
     }
 }
 
@@ -321,7 +391,7 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let mut table = TableFile::open(dir.path(), "t.csv", "step,time").unwrap();
         table.path = PathBuf::from("/dev/full");
-        table.file = OpenOptions::new().write(true).open(&table.path).unwrap();
+        table.target = Target::File(OpenOptions::new().write(true).open(&table.path).unwrap());
         table.written = 0;
         table.row(0, 0.0).end().unwrap();
         let error = table.flush().unwrap_err();
@@ -374,7 +444,8 @@ mod tests {
             (1..4).for_each(|step| table.row(step, 0.5).end().unwrap());
             // The disk takes a part of the rows.
             OpenOptions::new().append(true).open(&path).unwrap().write_all(grown.as_bytes()).unwrap();
-            assert_eq!(table.cut_back(), 6 * rows);
+            let Target::File(file) = &table.target else { unreachable!() };
+            assert_eq!(cut_back(file, table.written, table.rows.bytes()), 6 * rows);
             let text = std::fs::read_to_string(&path).unwrap();
             assert_eq!(text, ["step,time\n", &grown[..6 * rows as usize]].concat());
         }

@@ -54,7 +54,7 @@ pub fn settle_cadence(model: &mut Model, plan: &Plan) {
 /// The number of bytes of one time in each table.
 fn sizes(model: &Model, plan: &Plan) -> Vec<(&'static str, usize)> {
     let extent = Extent::new(model, plan);
-    let wanted = TABLES.iter().filter(|kind| kind.is_written(model));
+    let wanted = TABLES.iter().filter(|kind| (kind.wanted)(model));
     wanted.map(|kind| (kind.file, bytes(kind, model, &(kind.extent)(&extent)))).collect()
 }
 
@@ -63,7 +63,7 @@ fn sizes(model: &Model, plan: &Plan) -> Vec<(&'static str, usize)> {
 pub fn expected_sizes(model: &Model, plan: &Plan) -> Option<Vec<(&'static str, f64)>> {
     let times = times(model, model.output.cadence)?;
     let mut all: Vec<_> = sizes(model, plan).into_iter().map(|(file, size)| (file, size as f64 * times)).collect();
-    if let Some(FieldFiles { cadence, format }) = model.output.drawn() {
+    if let Some(FieldFiles { cadence, format }) = model.output.fields {
         let bytes = if format == FieldFormat::Frd { frd::bytes(model) } else { fields::bytes(model) };
         all.push(("fields", self::times(model, cadence)? * bytes as f64));
     }

@@ -1,5 +1,7 @@
 //! The state of a case of a sweep.
 
+use results::result_json::Status;
+
 /// The state of a case.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum CaseState {
@@ -43,6 +45,19 @@ pub struct CaseOutcome {
 }
 
 impl CaseOutcome {
+    /// The outcome of a run.
+    pub fn of(status: Status, reason: &str, warnings: &[String]) -> CaseOutcome {
+        let reason = one_line(reason);
+        let state = match status {
+            Status::Done => CaseState::Done,
+            Status::ExpectationMissed => CaseState::Missed(reason),
+            // A case that a signal has stopped is run again.
+            Status::Stopped => CaseState::Pending,
+            Status::NotConverged | Status::TooLittleMemory => CaseState::Failed(reason),
+        };
+        CaseOutcome { state, warnings: warnings.iter().map(|warning| one_line(warning)).collect() }
+    }
+
     /// The outcome of a case without a result.
     pub fn without_result(state: CaseState) -> CaseOutcome {
         CaseOutcome { state, warnings: Vec::new() }

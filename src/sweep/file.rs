@@ -4,6 +4,7 @@ use super::case_state::CaseState;
 use base::diagnostic::{Diagnostic, Source, Span};
 use base::names::{nearest, quoted};
 use deck::number_slips;
+use results::collected::{Collected, CollectedWhen};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -96,36 +97,6 @@ pub enum SampleKind {
     Sobol,
     /// A Latin hypercube.
     LatinHypercube,
-}
-
-/// A number that is read from the result of a case.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Collected {
-    /// The name of its column.
-    pub name: String,
-    /// The subject of the row, as its table names it, or "energy".
-    pub at: String,
-    /// The column of the table.
-    pub quantity: String,
-    /// The stage of the rows.
-    pub stage: Option<String>,
-    /// The time of the number.
-    pub when: CollectedWhen,
-}
-
-/// The time of a collected number.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum CollectedWhen {
-    /// Where it is largest.
-    Max,
-    /// Where it is least.
-    Min,
-    /// Where its magnitude is largest.
-    Abs,
-    /// At the end.
-    End,
-    /// At this time.
-    Time(f64),
 }
 
 /// The JSON Schema of the file. The keys of a deck and the contents of its tables are checked by the reader.

@@ -5,16 +5,18 @@
 
 use super::case_state::{CaseOutcome, CaseState, one_line};
 use super::cases::Cases;
-use super::collect::{collect, tables_of};
-use super::file::{Collected, KeptFolders, SweepFile};
+use super::file::{KeptFolders, SweepFile};
+use super::marks::Computed;
 use super::page::page;
 use super::records::{Records, remove_folder};
 use base::diagnostic::Source;
 use base::text_file::{read_regular, read_text};
 use deck::Deck;
 use rayon::prelude::*;
+use results::collected::{Collected, collect};
+use results::result_json::Status;
 use results::{at, result_json, torn_tables};
-use serde_json::Value;
+use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
 use std::fs;
@@ -55,43 +57,39 @@ impl SweepFolder {
         self.path.join(&self.names[case])
     }
 
-    /// The only files of a case that are read; `None` where folders may stay.
-    pub fn only(&self) -> Option<Vec<&'static str>> {
-        (self.keep == KeptFolders::Summary).then(|| tables_of(&self.collect))
+    /// The numbers that are all that is kept of a case; `None` where folders may stay.
+    pub fn only(&self) -> Option<&[Collected]> {
+        (self.keep == KeptFolders::Summary).then_some(&self.collect)
     }
 
     /// The state of a case.
     pub fn state(&self, case: usize) -> CaseState {
         match self.records.find(&self.names[case]) {
             Some(record) => record.state(),
-            None => found(&self.case(case), result_json::NAME).state,
+            None => found(&self.case(case)).state,
         }
     }
 
-    /// Removes those folders of these cases that are not kept, once their records are safe on the disk; returns the remaining ones. Each
-    /// has its result, which need not be marked.
+    /// Records those of these cases whose folders are not kept, and removes the folders; returns the other cases.
     ///
     /// # Errors
     /// A table cannot be read, a record cannot be written, or a folder cannot be removed; the error names it.
-    pub fn let_go(&self, cases: Vec<PathBuf>) -> io::Result<Vec<PathBuf>> {
-        if self.keep == KeptFolders::All {
-            return Ok(cases);
-        }
-        let with_outcome = cases.into_iter().map(|case| {
-            let outcome = found(&case, result_json::UNMARKED);
-            (case, outcome)
-        });
-        let (stay, go): (Vec<_>, Vec<_>) = with_outcome.partition(|(_, outcome)| self.keep.keeps(&outcome.state));
+    pub fn let_go(&self, cases: Vec<Computed>) -> io::Result<Vec<Computed>> {
+        let (stay, go): (Vec<_>, Vec<_>) = cases.into_iter().partition(|case| self.keep.keeps(&case.outcome.state));
         let mut records = Vec::new();
-        for (case, outcome) in &go {
-            let name = case.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            records.push((name, outcome, numbers(case, &outcome.state, &self.collect)?));
+        for Computed { folder, outcome, numbers, .. } in &go {
+            let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let numbers = match numbers {
+                Some(numbers) if stands(&outcome.state) => in_words(numbers),
+                _ => self::numbers(folder, &outcome.state, &self.collect)?,
+            };
+            records.push((name, outcome, numbers));
         }
         if !records.is_empty() {
             self.records.add(&records)?;
         }
-        go.iter().try_for_each(|(case, _)| remove_folder(case))?;
-        Ok(stay.into_iter().map(|(case, _)| case).collect())
+        go.iter().try_for_each(|case| remove_folder(&case.folder))?;
+        Ok(stay)
     }
 
     /// Writes `cases.csv`: the folder and the values of each case.
@@ -169,7 +167,7 @@ impl SweepFolder {
             let (outcome, numbers) = match self.records.find(&self.names[case]) {
                 Some(record) => (record.outcome(), record.numbers),
                 None => {
-                    let outcome = found(&self.case(case), result_json::NAME);
+                    let outcome = found(&self.case(case));
                     let numbers = numbers(&self.case(case), &outcome.state, wanted)?;
                     (outcome, numbers)
                 }
@@ -217,24 +215,24 @@ impl SweepFolder {
     }
 }
 
-/// The outcome of a case, from its folder and the name of its result.
-fn found(folder: &Path, result: &str) -> CaseOutcome {
+/// The outcome of a case, from its folder.
+fn found(folder: &Path) -> CaseOutcome {
     // A power cut may leave an empty one.
     if let Some(reason) = read_text(folder.join(FAILURE)).ok().filter(|reason| !reason.is_empty()) {
         return CaseOutcome::without_result(CaseState::Failed(one_line(&reason)));
     }
-    let result = read_regular(folder.join(result)).ok().and_then(|bytes| serde_json::from_slice::<Value>(&bytes).ok());
-    let Some(result) = result else { return CaseOutcome::without_result(CaseState::Pending) };
-    let reason = one_line(result["reason"].as_str().unwrap_or_default());
-    let state = match result["status"].as_str() {
-        Some("done") => CaseState::Done,
-        Some("expectation-missed") => CaseState::Missed(reason),
-        // A case that a signal has stopped is run again.
-        Some("stopped") | None => CaseState::Pending,
-        Some(_) => CaseState::Failed(reason),
-    };
-    let warnings = result["warnings"].as_array().into_iter().flatten().filter_map(Value::as_str);
-    CaseOutcome { state, warnings: warnings.map(one_line).collect() }
+    /// The entries of a result that say how a run ended.
+    #[derive(Deserialize)]
+    struct RunEnd {
+        status: Status,
+        reason: String,
+        warnings: Vec<String>,
+    }
+    let result = read_regular(folder.join(result_json::NAME)).ok();
+    match result.and_then(|bytes| serde_json::from_slice::<RunEnd>(&bytes).ok()) {
+        Some(RunEnd { status, reason, warnings }) => CaseOutcome::of(status, &reason, &warnings),
+        None => CaseOutcome::without_result(CaseState::Pending),
+    }
 }
 
 /// True for a case whose tables are complete.
@@ -244,8 +242,12 @@ fn stands(state: &CaseState) -> bool {
 
 /// The numbers of a case in the summary: empty if its tables have none, or if it is incomplete.
 fn numbers(folder: &Path, state: &CaseState, wanted: &[Collected]) -> io::Result<Vec<String>> {
-    let numbers = if stands(state) { collect(folder, wanted)? } else { vec![None; wanted.len()] };
-    Ok(numbers.into_iter().map(|number| number.map_or(String::new(), |number| format!("{number:?}"))).collect())
+    Ok(in_words(&if stands(state) { collect(folder, wanted)? } else { vec![None; wanted.len()] }))
+}
+
+/// Collected numbers as the summary has them.
+fn in_words(numbers: &[Option<f64>]) -> Vec<String> {
+    numbers.iter().map(|number| number.map_or(String::new(), |number| format!("{number:?}"))).collect()
 }
 
 /// Computes the names of cases: 16 hexadecimal digits of a SHA-256 each.

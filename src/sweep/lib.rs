@@ -1,7 +1,7 @@
 //! Sweeps: many variants of one deck in one folder, which any number of processes may fill at once.
 //!
-//! [`file`] reads the text, [`cases`] makes the variants, and [`sampling`] the points of a sample. [`collect`] reads the numbers from the
-//! results, and [`case_state`] the state and the warnings of a case; [`alike`] merges those of many. [`folder`] holds all cases and their
+//! [`file`] reads the text, [`cases`] makes the variants, and [`sampling`] the points of a sample. [`case_state`] is the state of a case with
+//! its warnings; [`alike`] merges those of many. [`folder`] holds all cases and their
 //! page, [`marks`] marks complete cases, and [`records`] keep cases without folders.
 
 #![warn(missing_docs)]
@@ -9,7 +9,6 @@
 pub mod alike;
 pub mod case_state;
 pub mod cases;
-pub mod collect;
 pub mod file;
 pub mod folder;
 pub mod marks;

@@ -1,6 +1,7 @@
 //! The marks of completed cases. A case is marked once all of its files are safe on the disk, so that no case seems complete after a power
 //! cut but is not. Cases that end while others are being made safe are made safe together.
 
+use super::case_state::{CaseOutcome, CaseState};
 use super::folder::SweepFolder;
 use results::checkpoint::Checkpoint;
 use results::{FolderLock, make_safe, result_json};
@@ -19,8 +20,10 @@ pub struct Computed {
     pub folder: PathBuf,
     /// The lock, which is let go when the case is marked.
     pub lock: FolderLock,
-    /// True if a signal has stopped it; the case then keeps its checkpoint for the continuation.
-    pub is_stopped: bool,
+    /// Its end; a pending case was stopped by a signal, and keeps its checkpoint for the continuation.
+    pub outcome: CaseOutcome,
+    /// The numbers of a case without files, `None` for each that no table has; `None`: the case has files.
+    pub numbers: Option<Vec<Option<f64>>>,
 }
 
 /// Marks cases in the folder of a sweep as they come, until no more do.
@@ -35,15 +38,15 @@ pub fn mark_all(within: &SweepFolder, computed: &Receiver<Computed>) -> io::Resu
             cases.push(case);
         }
         next = Instant::now() + APART;
-        // A case that a signal has stopped is pending, and stays.
-        let folders = within.let_go(cases.iter().map(|case| case.folder.clone()).collect())?;
-        make_safe(&within.path, &folders)?;
-        for Computed { folder, lock, is_stopped } in cases {
-            if !folders.contains(&folder) {
-                continue;
-            }
+        // A case that a signal has stopped is pending, and stays; without files, its checkpoint is safe already.
+        let mut stay = within.let_go(cases)?;
+        stay.retain(|case| case.numbers.is_none());
+        if !stay.is_empty() {
+            make_safe(&within.path, &stay.iter().map(|case| case.folder.clone()).collect::<Vec<_>>())?;
+        }
+        for Computed { folder, outcome, lock, .. } in stay {
             result_json::mark(&folder)?;
-            if !is_stopped {
+            if outcome.state != CaseState::Pending {
                 Checkpoint::remove(&folder)?;
             }
             drop(lock);
@@ -67,11 +70,12 @@ mod tests {
         let within = SweepFolder::new(root.path().to_owned(), ("", ""), &none, "", &SweepFile::default());
         let (done, computed) = channel();
         let folders = ["ended", "stopped"].map(|name| root.path().join(name));
-        for (folder, is_stopped) in folders.iter().zip([false, true]) {
+        for (folder, state) in folders.iter().zip([CaseState::Done, CaseState::Pending]) {
             let lock = FolderLock::make(folder).unwrap();
             fs::write(folder.join("result.json.tmp"), "{}").unwrap();
             fs::write(Checkpoint::path(folder), "state").unwrap();
-            done.send(Computed { folder: folder.clone(), lock, is_stopped }).unwrap();
+            let outcome = CaseOutcome::without_result(state);
+            done.send(Computed { folder: folder.clone(), lock, outcome, numbers: None }).unwrap();
         }
         assert!(folders.iter().all(|folder| !folder.join("result.json").exists()));
         drop(done);

@@ -4,8 +4,8 @@
 //! machines, may fill one sweep. A line without its end comes from a killed process and does not count.
 
 use super::case_state::{CaseOutcome, CaseState, one_line};
-use super::file::Collected;
 use results::at;
+use results::collected::Collected;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
@@ -194,7 +194,7 @@ mod tests {
             at: "b".into(),
             quantity: "ux".into(),
             stage: None,
-            when: super::super::file::CollectedWhen::End,
+            when: results::collected::CollectedWhen::End,
         };
         assert_eq!(Records::new(root.path(), &[others]).find("a"), None);
     }

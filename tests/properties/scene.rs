@@ -98,7 +98,6 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
             parts: false,
             joints: false,
             fields: None,
-            only: None,
             checkpoint: None,
         },
         study: None,

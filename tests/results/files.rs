@@ -3,8 +3,9 @@
 use crate::scene;
 use crate::support::grid::Grid;
 use rdsolve::model::{Cadence, Expect, ExpectAt, FieldFiles, FieldFormat, Model, PartIndex, PartKind, Tolerance, When};
-use rdsolve::output::Files;
+use rdsolve::output::collected::{Collected, CollectedWhen, collect};
 use rdsolve::output::expect::{Expectations, quantities};
+use rdsolve::output::{Files, TABLES};
 use rdsolve::solve::Observer;
 use std::fs;
 use std::path::Path;
@@ -103,6 +104,61 @@ fn rows_are_the_frames_to_the_last_bit() {
     assert_eq!(pairs.len(), 6 * 2);
 }
 
+/// The numbers that a search finds in the rows of a run that is interrupted are those that it reads in the files of a whole run: every column, by
+/// the first key of each row and by all of them, at the peaks and at a time. Without files the folder is not even made.
+#[test]
+fn collected_numbers_are_those_of_the_files() {
+    let dir = tempfile::tempdir().unwrap();
+    let model = scene::model();
+    run(dir.path(), &model);
+    let mut wanted = Vec::new();
+    for kind in TABLES.iter().filter(|kind| dir.path().join(kind.file).exists()) {
+        let (header, rows) = table(dir.path(), kind.file);
+        let is_key = |place: &usize| kind.columns().any(|column| column.is_key() && column.name == header[*place]);
+        let keys: Vec<usize> = (0..header.len()).filter(is_key).collect();
+        let mut subjects: Vec<String> = rows
+            .iter()
+            .flat_map(|row| {
+                [keys.iter().take(1), keys.iter().take(9)]
+                    .map(|keys| keys.map(|&key| row[key].as_str()).collect::<Vec<_>>().join(" "))
+            })
+            .collect();
+        subjects.sort();
+        subjects.dedup();
+        let at = subjects.iter().map(|at| if kind.file == "energy.csv" { "energy" } else { at.as_str() });
+        for (at, quantity) in at.flat_map(|at| {
+            header.iter().chain([&"fx".to_owned()]).map(move |column| (at, column.clone())).collect::<Vec<_>>()
+        }) {
+            for when in [
+                CollectedWhen::Max,
+                CollectedWhen::Min,
+                CollectedWhen::Abs,
+                CollectedWhen::End,
+                CollectedWhen::Time(0.4),
+            ] {
+                let (name, at, quantity) = (String::new(), at.to_owned(), quantity.clone());
+                wanted.push(Collected { name, at, quantity, stage: None, when });
+            }
+        }
+    }
+    let read = collect(dir.path(), &wanted).unwrap();
+    let found = read.iter().flatten().count();
+    assert!(found > 2000 && found < wanted.len(), "{found} of {}", wanted.len());
+    let none = dir.path().join("none");
+    let mut files = Files::waiting(&none, Some(wanted.clone())).begin(&model).unwrap();
+    show(&mut files, &model, 0, 4);
+    let mark = files.mark().unwrap();
+    show(&mut files, &model, 5, 7);
+    let mut files = Files::waiting(&none, Some(wanted.clone()));
+    files.go_on(&model, mark).unwrap();
+    show(&mut files, &model, 5, 10);
+    files.finish().unwrap();
+    for ((wanted, read), found) in wanted.iter().zip(&read).zip(files.numbers().unwrap()) {
+        assert_eq!(read.map(f64::to_bits), found.map(f64::to_bits), "{wanted:?}: {read:?}, {found:?}");
+    }
+    assert!(!none.exists());
+}
+
 /// An interrupted run, resumed from a checkpoint that lies before its last rows, ends in the same bytes.
 #[test]
 fn a_resumed_run_leaves_the_same_files() {
@@ -115,7 +171,7 @@ fn a_resumed_run_leaves_the_same_files() {
     let mark = files.mark().unwrap();
     show(&mut files, &model, 5, 7);
     files.finish().unwrap();
-    let mut files = Files::waiting(resumed.path());
+    let mut files = Files::waiting(resumed.path(), None);
     files.go_on(&model, mark).unwrap();
     show(&mut files, &model, 5, 10);
     files.finish().unwrap();

@@ -156,7 +156,6 @@ pub fn model() -> Model {
             parts: false,
             joints: false,
             fields: None,
-            only: None,
             checkpoint: None,
         },
         study: None,

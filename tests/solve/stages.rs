@@ -491,8 +491,7 @@ fn durations_are_those_of_the_deck() {
 
 #[test]
 fn a_sweep_reads_tables_with_stages() {
-    use rdsolve::sweep::collect::collect;
-    use rdsolve::sweep::file::{Collected, CollectedWhen};
+    use rdsolve::output::collected::{Collected, CollectedWhen, collect};
     let folder = tempfile::tempdir().unwrap();
     let energy = "step,time,stage,kinetic\n0,0.0,push,0.0\n1,1.0,push,3.0\n1,1.0,free,5.0\n2,2.0,free,4.0\n";
     let bodies = "step,time,stage,body,z\n0,0.0,push,block,1.0\n1,1.0,push,block,2.0\n2,2.0,free,block,-7.0\n";

@@ -41,17 +41,8 @@ pub struct Output {
     pub joints: bool,
     /// The field files; `None`: no fields.
     pub fields: Option<FieldFiles>,
-    /// The only files that are written of those above; `None`: all. Nobody reads the others of a run whose folder is removed at its end.
-    pub only: Option<Vec<&'static str>>,
     /// Seconds of run time between two checkpoints; `None`: only when the run is stopped.
     pub checkpoint: Option<f64>,
-}
-
-impl Output {
-    /// The field files that are written.
-    pub fn drawn(&self) -> Option<FieldFiles> {
-        self.fields.filter(|_| self.only.is_none())
-    }
 }
 
 /// The displacement of a node relative to another.

@@ -64,7 +64,7 @@ keep!(Account { largest, history });
 impl ErrorBars {
     /// Nothing seen yet. Tables of what steps cost have no errors.
     pub fn new(model: &Model) -> ErrorBars {
-        let written = TABLES.iter().copied().filter(|kind| kind.is_written(model) && !kind.every_step);
+        let written = TABLES.iter().copied().filter(|kind| (kind.wanted)(model) && !kind.every_step);
         let watch = |kind: &'static TableKind| WatchedTable {
             kind,
             write: (kind.rows)(model),

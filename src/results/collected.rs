@@ -1,0 +1,301 @@
+//! The numbers that a sweep collects. One search takes the rows of a table as a run makes them, or as its file has them.
+
+use super::TABLES;
+use super::curve::{REACTION, REACTIONS, reaction_direction};
+use super::table::{BETWEEN_SETS, SET, STAGE, TableKind, names_subject};
+use super::table_reader::{TableReader, fields, number, text};
+use base::snapshot::keep;
+use std::fmt::Write;
+use std::io;
+use std::path::Path;
+
+/// Times are those of a row within this part of it.
+const SAME_TIME: f64 = 1e-9;
+
+/// A number that is read from the result of a case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Collected {
+    /// The name of its column.
+    pub name: String,
+    /// The subject of the row, as its table names it, or "energy".
+    pub at: String,
+    /// The column of the table.
+    pub quantity: String,
+    /// The stage of the rows.
+    pub stage: Option<String>,
+    /// The time of the number.
+    pub when: CollectedWhen,
+}
+
+/// The time of a collected number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CollectedWhen {
+    /// Where it is largest.
+    Max,
+    /// Where it is least.
+    Min,
+    /// Where its magnitude is largest.
+    Abs,
+    /// At the end.
+    End,
+    /// At this time.
+    Time(f64),
+}
+
+/// The collected numbers in the tables of a folder, in their order; `None` if the tables lack one. Each table is read once.
+///
+/// # Errors
+/// A table cannot be read; the error names it.
+pub fn collect(folder: &Path, wanted: &[Collected]) -> io::Result<Vec<Option<f64>>> {
+    let mut all = Vec::new();
+    for kind in TABLES {
+        let path = folder.join(kind.file);
+        if asked_of(kind, wanted).next().is_none() || !path.exists() {
+            continue;
+        }
+        let mut rows = TableReader::open(&path)?;
+        let Some(mut search) = RowSearch::new(kind, &rows.header, wanted) else { continue };
+        while let Some(row) = rows.next_row()? {
+            search.read(row);
+        }
+        all.push(search);
+    }
+    Ok(found(all.iter(), wanted.len()))
+}
+
+/// The numbers that these searches have found, by their places in the list of numbers.
+pub fn found<'s>(tables: impl Iterator<Item = &'s RowSearch>, count: usize) -> Vec<Option<f64>> {
+    let mut all: Vec<&Search> = tables.flat_map(|table| &table.searches).collect();
+    all.sort_by_key(|search| search.order);
+    let mut found = vec![None; count];
+    // One time of several nodes is no number.
+    for search in all.into_iter().filter(|search| !search.found.has_others || search.takes_extreme()) {
+        found[search.place] = found[search.place].or(search.found.best);
+    }
+    found
+}
+
+/// The numbers that a table may have, each with its place in the list, and the order in which tables are asked for it.
+fn asked_of<'w>(kind: &TableKind, wanted: &'w [Collected]) -> impl Iterator<Item = (usize, usize, Collected)> + 'w {
+    let about_all = !kind.columns().any(|column| column.is_key());
+    let values: Vec<&str> = kind.columns().filter(|column| !column.is_key()).map(|column| column.name).collect();
+    let (file, every_step) = (kind.file, kind.every_step);
+    // A response is asked for its own table, whose columns have the names of others.
+    let order =
+        if file == "response.csv" { 0 } else { 1 + TABLES.iter().take_while(|table| table.file != file).count() };
+    wanted.iter().enumerate().flat_map(move |(place, one)| {
+        let is_energy = (one.at == "energy") == (about_all && file == "energy.csv");
+        let holds = !every_step && values.contains(&one.quantity.as_str()) && is_energy;
+        let reaction = as_reaction(one).filter(|_| file == REACTIONS).map(|one| (place, usize::MAX, one));
+        holds.then(|| (place, order, one.clone())).into_iter().chain(reaction)
+    })
+}
+
+/// The rows of reactions.csv that a component of force or moment at a support stands in.
+fn as_reaction(one: &Collected) -> Option<Collected> {
+    let direction = reaction_direction(&one.quantity)?;
+    Some(Collected { at: format!("{} {direction}", one.at), quantity: REACTION.to_owned(), ..one.clone() })
+}
+
+/// The search for numbers in the rows of one table.
+pub struct RowSearch {
+    searches: Vec<Search>,
+    /// The fields of the row under way up to the last that is looked at, and the place of the next one.
+    row: Vec<Field>,
+    next: usize,
+    /// The places of the time, of the keys, of the stage and of the sets.
+    time: usize,
+    keys: Vec<usize>,
+    others: [Option<usize>; 2],
+}
+
+/// A field of the row under way.
+#[derive(Clone, Default)]
+struct Field {
+    looked_at: LookedAt,
+    text: String,
+    number: f64,
+}
+
+/// What is looked at in a field.
+#[derive(Clone, Copy, Default, PartialEq)]
+enum LookedAt {
+    #[default]
+    Nothing,
+    Text,
+    Number,
+}
+
+/// The search for one number.
+struct Search {
+    wanted: Collected,
+    /// Its place in the list of numbers.
+    place: usize,
+    /// The place of this table among those that are asked for it.
+    order: usize,
+    /// The place of its column.
+    column: usize,
+    found: Found,
+}
+
+/// The result of a search so far.
+#[derive(Debug, Clone, Default)]
+pub struct Found {
+    best: Option<f64>,
+    /// The first key of the first row taken.
+    subject: Option<String>,
+    /// True if other rows taken have another.
+    has_others: bool,
+}
+
+keep!(Found: Default { best, subject, has_others });
+
+impl RowSearch {
+    /// The search in a table with these columns; `None` if it has none of the numbers.
+    pub fn new(kind: &TableKind, header: &[impl AsRef<str>], wanted: &[Collected]) -> Option<RowSearch> {
+        let column = |name: &str| header.iter().position(|other| other.as_ref() == name);
+        let search = |(place, order, wanted): (usize, usize, Collected)| {
+            let column = column(&wanted.quantity)?;
+            Some(Search { wanted, place, order, column, found: Found::default() })
+        };
+        let searches: Vec<Search> = asked_of(kind, wanted).filter_map(search).collect();
+        let time = column("time").filter(|_| !searches.is_empty())?;
+        // The stage and the load case of a row are part of its time, not of its subject.
+        let says_what = |name: &str| names_subject(name) && kind.columns().any(|one| one.is_key() && one.name == name);
+        let keys: Vec<usize> = (0..header.len()).filter(|&place| says_what(header[place].as_ref())).collect();
+        let others = [STAGE, SET].map(column);
+        let texts = keys.iter().chain(others.iter().flatten()).map(|&place| (place, LookedAt::Text));
+        let numbers = searches.iter().map(|search| search.column).chain([time]);
+        let all: Vec<_> = texts.chain(numbers.map(|place| (place, LookedAt::Number))).collect();
+        let mut row = vec![Field::default(); all.iter().map(|(place, _)| place + 1).max().unwrap_or(0)];
+        all.into_iter().for_each(|(place, looked_at)| row[place].looked_at = looked_at);
+        Some(RowSearch { searches, row, next: 0, time, keys, others })
+    }
+
+    /// Takes a row of a file.
+    fn read(&mut self, row: &[u8]) {
+        self.next = 0;
+        for (field, to) in fields(row).zip(&mut self.row) {
+            match to.looked_at {
+                LookedAt::Text => text(field).as_ref().clone_into(&mut to.text),
+                LookedAt::Number => to.number = number(field),
+                LookedAt::Nothing => {}
+            }
+        }
+        self.end();
+    }
+
+    /// Begins a row with its step.
+    pub fn begin(&mut self, step: usize) {
+        self.next = 0;
+        self.count(step);
+    }
+
+    /// Takes a field with a whole number.
+    pub fn count(&mut self, value: usize) {
+        if let Some(Field { looked_at, text, number }) = self.row.get_mut(self.next) {
+            *number = value as f64;
+            if *looked_at == LookedAt::Text {
+                text.clear();
+                // A text can always grow.
+                let _ = write!(text, "{value}");
+            }
+        }
+        self.next += 1;
+    }
+
+    /// Takes a field for each number, and returns how many of them are not finite.
+    pub fn numbers(&mut self, values: &[f64]) -> usize {
+        self.row.iter_mut().skip(self.next).zip(values).for_each(|(to, value)| to.number = *value);
+        self.next += values.len();
+        values.iter().filter(|value| !value.is_finite()).count()
+    }
+
+    /// Takes a field with a text.
+    pub fn text(&mut self, value: &str) {
+        if let Some(Field { looked_at, text, number }) = self.row.get_mut(self.next) {
+            *number = f64::NAN;
+            if *looked_at == LookedAt::Text {
+                value.clone_into(text);
+            }
+        }
+        self.next += 1;
+    }
+
+    /// Looks at the whole row.
+    pub fn end(&mut self) {
+        let RowSearch { searches, row, keys, others, time, .. } = self;
+        for search in searches {
+            if search.is_about(row, keys, *others) {
+                if let Some(&key) = keys.first() {
+                    search.found.note(&row[key].text);
+                }
+                search.see(row[*time].number, row[search.column].number);
+            }
+        }
+    }
+
+    /// The results so far, to go back to.
+    pub fn so_far(&self) -> Vec<Found> {
+        self.searches.iter().map(|search| search.found.clone()).collect()
+    }
+
+    /// Goes back to earlier results of the same search.
+    pub fn go_back(&mut self, to: &[Found]) {
+        self.searches.iter_mut().zip(to).for_each(|(search, found)| search.found.clone_from(found));
+    }
+}
+
+impl Found {
+    /// Notes the subject of a row that is taken.
+    fn note(&mut self, subject: &str) {
+        match &self.subject {
+            Some(first) => self.has_others |= first != subject,
+            None => self.subject = Some(subject.to_owned()),
+        }
+    }
+}
+
+impl Search {
+    /// True where the number is the extreme of all rows.
+    fn takes_extreme(&self) -> bool {
+        !matches!(self.wanted.when, CollectedWhen::End | CollectedWhen::Time(_))
+    }
+
+    /// Takes the value of a row, if it is the one that is wanted so far.
+    fn see(&mut self, time: f64, value: f64) {
+        let takes = |best: f64| match self.wanted.when {
+            CollectedWhen::Max => value > best,
+            CollectedWhen::Min => value < best,
+            CollectedWhen::Abs => value.abs() > best.abs(),
+            CollectedWhen::End | CollectedWhen::Time(_) => true,
+        };
+        let is_apart = |at: f64| (time - at).abs() > SAME_TIME * at.abs().max(time.abs());
+        let elsewhere = matches!(self.wanted.when, CollectedWhen::Time(at) if is_apart(at));
+        if value.is_finite() && !elsewhere && self.found.best.is_none_or(takes) {
+            self.found.best = Some(value);
+        }
+    }
+
+    /// True for a row of the wanted subject, or of the wanted set, in the wanted stage.
+    fn is_about(&self, row: &[Field], keys: &[usize], [stages, sets]: [Option<usize>; 2]) -> bool {
+        let says = |place: usize, name: &str| row[place].text == name;
+        let in_stage = match &self.wanted.stage {
+            Some(stage) => stages.is_some_and(|place| says(place, stage)),
+            None => true,
+        };
+        let in_set = sets.is_some_and(|place| row[place].text.split(BETWEEN_SETS).any(|name| name == self.wanted.at));
+        let is_subject = in_set || keys.is_empty() || says(keys[0], &self.wanted.at) || self.is_all(row, keys);
+        in_stage && is_subject
+    }
+
+    /// True if all keys of a row, separated by spaces, are the wanted subject.
+    fn is_all(&self, row: &[Field], keys: &[usize]) -> bool {
+        let mut rest = Some(self.wanted.at.as_str());
+        for (number, &key) in keys.iter().enumerate() {
+            let next = if number == 0 { rest } else { rest.and_then(|rest| rest.strip_prefix(' ')) };
+            rest = next.and_then(|rest| rest.strip_prefix(row[key].text.as_str()));
+        }
+        rest == Some("")
+    }
+}
