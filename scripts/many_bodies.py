@@ -268,6 +268,10 @@ def in_own_process(program, scene, n):
     print(json.dumps({"seconds": seconds, "memory": memory} | found))
 
 
+ENOUGH = 20.0
+"""Seconds of processor time after which a scene is not run again; no scene is run more than nine times."""
+
+
 class Runs:
     """Of the program measured."""
 
@@ -286,13 +290,15 @@ class Runs:
             raise RuntimeError(f"{name}: exit code {done.returncode}: {done.stderr}")
         return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, out
 
-    def half_and_whole(self, name, deck, n, end, steps):
+    def half_and_whole(self, name, deck, end, steps):
         """`deck` makes a text of an end and a number of steps."""
-        least = [math.inf, math.inf]
-        for _ in range(9 if n <= 100 else 3 if n <= 3000 else 1):
+        least, spent, rounds = [math.inf, math.inf], 0.0, 0
+        # Noise matters in short runs; long ones would take an hour to repeat.
+        while rounds == 0 or rounds < 9 and spent < ENOUGH:
             for i, part in enumerate((0.5, 1.0)):
                 seconds, out = self.run(name, deck(part * end, round(part * steps)))
-                least[i] = min(least[i], seconds)
+                least[i], spent = min(least[i], seconds), spent + seconds
+            rounds += 1
         report = json.loads((out / "result.json").read_text())
         if report["counts"]["steps"] != steps or report["warnings"]:
             print(f"{name}: {report['counts']} {report['warnings']}", file=sys.stderr)
@@ -330,7 +336,7 @@ def measure_solids(kind, runs, most, others):
             if program in OTHERS and n > others:
                 continue
             if program == "rdsolve":
-                found = runs.half_and_whole(f"{kind}_{n}", lambda end, steps: deck_of_solids(kind, n, end, steps), n, FALL, steps)
+                found = runs.half_and_whole(f"{kind}_{n}", lambda end, steps: deck_of_solids(kind, n, end, steps), FALL, steps)
                 rows = last_rows(found["out"] / "bodies.csv")
                 found |= state([float(row["z"]) for row in rows], *([numbers(row, keys) for row in rows] for keys in (VELOCITY, TURNING)))
                 found["pairs"] = next(row["touching"] for row in last_rows(found["out"] / "contacts.csv") if row["contact"] == "pairs")
@@ -352,7 +358,7 @@ def measure_chains(runs, most, others):
     for n in (n for n in LENGTHS if n <= most):
         cells = [str(n)]
         for scheme, steps in (("generalized-alpha", IMPLICIT_STEPS), ("central-difference", EXPLICIT_STEPS)):
-            found = runs.half_and_whole(f"{scheme}_{n}", lambda end, steps: deck_of_chain(scheme, n, end, steps), n, SWING, steps)
+            found = runs.half_and_whole(f"{scheme}_{n}", lambda end, steps: deck_of_chain(scheme, n, end, steps), SWING, steps)
             step = found["seconds"] / (steps / 2)
             grown[scheme].append((n, step))
             last[scheme, n] = step, numbers(last_rows(found["out"] / "bodies.csv")[-1], "xyz")

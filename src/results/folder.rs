@@ -45,7 +45,7 @@ pub fn claim(dir: &Path, overwrite: bool, models: &[&Model], read: &[PathBuf]) -
 }
 
 /// The names of all that is in a folder.
-fn entries(dir: &Path) -> io::Result<Vec<String>> {
+pub(super) fn entries(dir: &Path) -> io::Result<Vec<String>> {
     let entries = fs::read_dir(dir).map_err(|e| at(dir, e))?;
     let name = |entry: io::Result<fs::DirEntry>| Ok(entry?.file_name().to_str().map(str::to_owned));
     let names: io::Result<Vec<Option<String>>> = entries.map(name).collect();

@@ -1,7 +1,8 @@
 //! Tables that end within a row, as a kill at the moment of writing leaves them: readers omit this row, and commands name the table.
 
 use super::disk::at;
-use super::tables::TABLES;
+use super::folder::entries;
+use super::tables::of_file;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
@@ -12,17 +13,15 @@ use std::path::Path;
 /// A table cannot be read; the error names it.
 pub fn torn_tables(folder: &Path) -> io::Result<Vec<String>> {
     let mut torn = Vec::new();
-    for table in TABLES {
-        let path = folder.join(table.file);
-        match ends_within_a_row(&path) {
-            Ok(true) => torn.push(table.file),
-            Ok(false) => {}
-            Err(fault) if fault.kind() == io::ErrorKind::NotFound => {}
-            Err(fault) => return Err(at(&path, fault)),
+    // A sweep asks for thousands of folders: they are listed, where asking for each table would take two dozen calls.
+    for name in entries(folder)?.into_iter().filter(|name| of_file(name).is_some()) {
+        let path = folder.join(&name);
+        if ends_within_a_row(&path).map_err(|fault| at(&path, fault))? {
+            torn.push(name);
         }
     }
     torn.sort_unstable();
-    let sentence = |name: &str| {
+    let sentence = |name: String| {
         format!(
             "the last line of {name} is incomplete and omitted: the run was killed, is still writing, or its disk was full. \
              Continue it by `--resume`, or run it again"

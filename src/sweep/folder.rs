@@ -149,7 +149,8 @@ impl SweepFolder {
     /// A folder of a case cannot be read.
     pub fn torn_tables(&self, outcomes: &[CaseOutcome]) -> io::Result<Vec<(usize, String)>> {
         let of_case = |(case, _)| Ok(torn_tables(&self.case(case))?.into_iter().map(|torn| (case + 1, torn)).collect());
-        let standing = outcomes.par_iter().enumerate().filter(|(_, outcome)| stands(&outcome.state));
+        let has_tables = |case: usize, state: &CaseState| stands(state) && self.case(case).exists();
+        let standing = outcomes.par_iter().enumerate().filter(|(case, outcome)| has_tables(*case, &outcome.state));
         Ok(standing.map(of_case).collect::<io::Result<Vec<Vec<_>>>>()?.concat())
     }
 
