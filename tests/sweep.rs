@@ -776,3 +776,57 @@ reactions = true
         assert_eq!(row[5], "");
     }
 }
+
+/// The reaction of a set, a group or an edge is the sum over its nodes: of two feet it is the load on the frame. Moments about two feet have no sum.
+#[test]
+fn reactions_of_a_set_are_summed() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let deck = r#"
+analysis = { kind = "static", end_time = 1.0, time_step = 0.5 }
+points = { a = [0.0, 0.0, 0.0], b = [0.0, 0.0, 1.0], c = [2.0, 0.0, 1.0], d = [2.0, 0.0, 0.0] }
+materials.steel = { model = "elastic", youngs_modulus = 210e9, poisson_ratio = 0.3 }
+sections.bar = { shape = "rectangle", width = 0.05, height = 0.05 }
+sets = { feet = ["a", "d"], foot = ["a"] }
+supports = [{ at = "feet", fix = "all" }, { at = "foot", fix = "all" }]
+loads = [{ at = "b", force = [1000.0, 0.0, -500.0] }, { at = "c", force = [0.0, 0.0, -700.0] }]
+output = { reactions = true }
+[[beams]]
+name = "frame"
+path = ["a", "b", "c", "d"]
+elements = 1
+material = "steel"
+section = "bar"
+orientation = [0.0, 1.0, 0.0]
+"#;
+    let sweep = "deck = \"deck.toml\"\n[vary]\n\"loads.0.force\" = [[1000.0, 0.0, -500.0], [200.0, 0.0, -500.0]]\n[collect]\n\
+                 end = { at = \"feet\", quantity = \"fx\", time = \"end\" }\nhalf = { at = \"feet\", quantity = \"fz\", time = 0.5 }\n\
+                 peak = { at = \"feet\", quantity = \"fz\", peak = \"max\" }\nfoot = { at = \"foot\", quantity = \"my\", time = \"end\" }\n\
+                 one = { at = \"a\", quantity = \"my\", time = \"end\" }\nmoment = { at = \"feet\", quantity = \"my\", time = \"end\" }\n";
+    fs::write(folder.join("deck.toml"), deck).unwrap();
+    fs::write(folder.join("s.toml"), sweep).unwrap();
+    let done = rdsolve(folder, &["sweep", "s.toml"]);
+    let said = text(&done.stderr);
+    assert!(
+        done.status.success() && said.contains("`moment` is empty") && said.contains("moments have no sum"),
+        "{said}"
+    );
+    let found = rows(folder, "s.out/summary.csv");
+    for (row, push) in found[1..].iter().zip([1000.0, 200.0]) {
+        let value = |name: &str| row[found[0].iter().position(|column| column == name).unwrap()].clone();
+        // Equilibrium, to the tolerance of the iteration.
+        let exact = [("end", -push), ("half", 600.0), ("peak", 1200.0)];
+        assert!(
+            exact.iter().all(|(name, f)| (value(name).parse::<f64>().unwrap() - f).abs() < 1e-5 * 1200.0),
+            "{row:?}"
+        );
+        assert!(value("foot") == value("one") && !value("one").is_empty() && value("moment").is_empty(), "{row:?}");
+    }
+    // A curve takes the name of the set as well.
+    let case = rows(folder, "s.out/cases.csv")[1][1].clone();
+    let curve =
+        ["summary", &format!("s.out/{case}"), "--format", "csv", "--curve", "nodes.csv:b:ux", "-reactions.csv:feet:fx"];
+    let curve = text(&rdsolve(folder, &curve).stdout);
+    let last: f64 = curve.lines().last().unwrap().rsplit(',').next().unwrap().parse().unwrap();
+    assert!((last - 1000.0).abs() < 1e-2, "{curve}");
+}

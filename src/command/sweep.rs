@@ -122,7 +122,7 @@ pub fn sweep(args: &SweepArgs) -> Result<(), Exit> {
         let Collected { name, at, quantity, .. } = one;
         say(&format!(
             "warning: `{name}` is empty: no table that the cases write has one value of `{quantity}` of `{at}`. Correct `at` or `quantity`, ask \
-             for its table in `[output]` of the deck, or give `peak` where `at` names several nodes"
+             for its table in `[output]` of the deck, or give `peak` where `at` names several nodes; their moments have no sum"
         ));
     }
     for (case, torn) in folder.torn_tables(&outcomes).map_err(|error| cannot_write(&folder.path, &error))? {

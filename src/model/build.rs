@@ -35,7 +35,7 @@ use super::mesh_file::{Input, MeshNodes};
 use super::motion_curves::motion_curves;
 use super::moving_frames::moving_frames;
 use super::names::Names;
-use super::output::{Selection, output, write_all_nodes};
+use super::output::{Selection, output, supported_sets, write_all_nodes};
 use super::part_context::PartContext;
 use super::parts::Parts;
 use super::places::nodes::{Nodes, Topology};
@@ -271,6 +271,8 @@ fn model<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, files: Files<'d>, 
     let linked = links.list.iter().map(|link| link.ends).chain(contacts.iter().flat_map(|contact| contact.pairs()));
     check_sound(&scene, &amplitudes, &topology, Ties::new(&topology, &joints, linked), report);
     place_nodes(&scene.names, &scene.parts, &mut topology);
+    let writes = asked.selection.output.reactions;
+    let sets = if writes { supported_sets(&scene, &topology.list) } else { HashMap::new() };
     let targets = std::mem::take(&mut topology.targets);
     let (nodes, dependents, restraints) = topology.into_parts();
     let mut analysis = Analysis { stage: asked.stage, ..scene.analysis };
@@ -303,6 +305,7 @@ fn model<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, files: Files<'d>, 
             restraints,
             targets,
             ties: tie_names(deck),
+            sets,
         },
         loading: acting.fields.with(amplitudes, acting.loads),
         cases: asked.cases,

@@ -8,7 +8,7 @@ use super::values::flag;
 use base::diagnostic::At;
 use deck::output as words;
 use deck::words::{FlagOrTable, Table};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// Files of fields at most, unless the deck says how many.
 const MOST_FIELDS: f64 = 200.0;
@@ -146,16 +146,32 @@ fn listed_nodes<'d>(
     if listed.iter().all(|spot| spot.direct) {
         return (nodes, Vec::new());
     }
-    let mut sets = vec![String::new(); nodes.len()];
-    for name in table.nodes.iter().flat_map(|list| &list.values) {
-        let covered: BTreeSet<usize> =
-            scene.place_or_node(name).into_iter().flat_map(|place| scene.nodes_of(place)).collect();
-        for place in covered.iter().filter_map(|node| nodes.binary_search(node).ok()) {
-            let between = if sets[place].is_empty() { "" } else { BETWEEN_SETS };
-            sets[place] += &format!("{between}{}", name.value);
+    let of_nodes = names_of(scene, table.nodes.iter().flat_map(|list| &list.values));
+    let sets = nodes.iter().map(|node| of_nodes.get(node).cloned().unwrap_or_default()).collect();
+    (nodes, sets)
+}
+
+/// The names that cover each node, in their order and each once.
+fn names_of<'n>(scene: &Scene, names: impl Iterator<Item = &'n At<String>>) -> BTreeMap<usize, String> {
+    let (mut seen, mut covered) = (HashSet::new(), BTreeMap::<usize, String>::new());
+    for name in names.filter(|name| seen.insert(name.as_str())) {
+        let place = scene.place_or_node(name);
+        let nodes: BTreeSet<usize> = place.into_iter().flat_map(|place| scene.nodes_of(place)).collect();
+        for node in nodes {
+            let names = covered.entry(node).or_default();
+            *names += if names.is_empty() { "" } else { BETWEEN_SETS };
+            *names += name;
         }
     }
-    (nodes, sets)
+    covered
+}
+
+/// The sets, groups and parts that supports of any stage name, by the labels of their nodes.
+pub(super) fn supported_sets(scene: &Scene, nodes: &[Node]) -> HashMap<String, String> {
+    let deck = scene.stage.map_or(scene.deck, |stage| stage.sequence.whole);
+    let names = deck.supports.iter().flat_map(|support| &support.at).flat_map(|at| &at.values);
+    let of_several = names.filter(|name| !matches!(scene.names.place(name), Some(Place::Point(_) | Place::Body(_))));
+    names_of(scene, of_several).into_iter().map(|(node, names)| (nodes[node].label.clone(), names)).collect()
 }
 
 /// Reads `[[drifts]]`. One with an error is left out, so that places in the list are those of the deck only in a sound one.

@@ -68,15 +68,14 @@ pub fn found<'s>(tables: impl Iterator<Item = &'s RowSearch>, count: usize) -> V
     let mut all: Vec<&Search> = tables.flat_map(|table| &table.searches).collect();
     all.sort_by_key(|search| search.order);
     let mut found = vec![None; count];
-    // One time of several nodes is no number.
-    for search in all.into_iter().filter(|search| !search.found.has_others || search.takes_extreme()) {
-        found[search.place] = found[search.place].or(search.found.best);
+    for search in all {
+        found[search.place] = found[search.place].or(search.number());
     }
     found
 }
 
 /// The numbers that a table may have, each with its place in the list, and the order in which tables are asked for it.
-fn asked_of<'w>(kind: &TableKind, wanted: &'w [Collected]) -> impl Iterator<Item = (usize, usize, Collected)> + 'w {
+fn asked_of<'w>(kind: &TableKind, wanted: &'w [Collected]) -> impl Iterator<Item = (usize, usize, &'w Collected)> {
     let about_all = !kind.columns().any(|column| column.is_key());
     let values: Vec<&str> = kind.columns().filter(|column| !column.is_key()).map(|column| column.name).collect();
     let (file, every_step) = (kind.file, kind.every_step);
@@ -86,15 +85,10 @@ fn asked_of<'w>(kind: &TableKind, wanted: &'w [Collected]) -> impl Iterator<Item
     wanted.iter().enumerate().flat_map(move |(place, one)| {
         let is_energy = (one.at == "energy") == (about_all && file == "energy.csv");
         let holds = !every_step && values.contains(&one.quantity.as_str()) && is_energy;
-        let reaction = as_reaction(one).filter(|_| file == REACTIONS).map(|one| (place, usize::MAX, one));
-        holds.then(|| (place, order, one.clone())).into_iter().chain(reaction)
+        // A component of force or moment at a support stands in rows of its direction.
+        let is_reaction = file == REACTIONS && reaction_direction(&one.quantity).is_some();
+        holds.then_some((place, order, one)).into_iter().chain(is_reaction.then_some((place, usize::MAX, one)))
     })
-}
-
-/// The rows of reactions.csv that a component of force or moment at a support stands in.
-fn as_reaction(one: &Collected) -> Option<Collected> {
-    let direction = reaction_direction(&one.quantity)?;
-    Some(Collected { at: format!("{} {direction}", one.at), quantity: REACTION.to_owned(), ..one.clone() })
 }
 
 /// The search for numbers in the rows of one table.
@@ -103,8 +97,9 @@ pub struct RowSearch {
     /// The fields of the row under way up to the last that is looked at, and the place of the next one.
     row: Vec<Field>,
     next: usize,
-    /// The places of the time, of the keys, of the stage and of the sets.
+    /// The places of the time, of the step, of the keys, of the stage and of the sets.
     time: usize,
+    step: Option<usize>,
     keys: Vec<usize>,
     others: [Option<usize>; 2],
 }
@@ -135,6 +130,8 @@ struct Search {
     order: usize,
     /// The place of its column.
     column: usize,
+    /// The direction of the rows that are summed at each instant, of a reaction.
+    direction: Option<&'static str>,
     found: Found,
 }
 
@@ -146,17 +143,32 @@ pub struct Found {
     subject: Option<String>,
     /// True if other rows taken have another.
     has_others: bool,
+    /// The sum of the rows of the instant under way.
+    sum: Option<Sum>,
 }
 
-keep!(Found: Default { best, subject, has_others });
+/// The sum of the rows of one instant.
+#[derive(Debug, Clone, Default)]
+struct Sum {
+    stage: String,
+    step: f64,
+    time: f64,
+    value: f64,
+}
+
+keep!(Found: Default { best, subject, has_others, sum });
+keep!(Sum: Default { stage, step, time, value });
 
 impl RowSearch {
     /// The search in a table with these columns; `None` if it has none of the numbers.
     pub fn new(kind: &TableKind, header: &[impl AsRef<str>], wanted: &[Collected]) -> Option<RowSearch> {
         let column = |name: &str| header.iter().position(|other| other.as_ref() == name);
-        let search = |(place, order, wanted): (usize, usize, Collected)| {
-            let column = column(&wanted.quantity)?;
-            Some(Search { wanted, place, order, column, found: Found::default() })
+        let search = |(place, order, wanted): (usize, usize, &Collected)| {
+            let (column, direction) = match column(&wanted.quantity) {
+                Some(column) => (column, None),
+                None => (column(REACTION)?, Some(reaction_direction(&wanted.quantity)?)),
+            };
+            Some(Search { wanted: wanted.clone(), place, order, column, direction, found: Found::default() })
         };
         let searches: Vec<Search> = asked_of(kind, wanted).filter_map(search).collect();
         let time = column("time").filter(|_| !searches.is_empty())?;
@@ -165,11 +177,11 @@ impl RowSearch {
         let keys: Vec<usize> = (0..header.len()).filter(|&place| says_what(header[place].as_ref())).collect();
         let others = [STAGE, SET].map(column);
         let texts = keys.iter().chain(others.iter().flatten()).map(|&place| (place, LookedAt::Text));
-        let numbers = searches.iter().map(|search| search.column).chain([time]);
+        let numbers = searches.iter().map(|search| search.column).chain([time]).chain(column("step"));
         let all: Vec<_> = texts.chain(numbers.map(|place| (place, LookedAt::Number))).collect();
         let mut row = vec![Field::default(); all.iter().map(|(place, _)| place + 1).max().unwrap_or(0)];
         all.into_iter().for_each(|(place, looked_at)| row[place].looked_at = looked_at);
-        Some(RowSearch { searches, row, next: 0, time, keys, others })
+        Some(RowSearch { searches, row, next: 0, time, step: column("step"), keys, others })
     }
 
     /// Takes a row of a file.
@@ -224,13 +236,19 @@ impl RowSearch {
 
     /// Looks at the whole row.
     pub fn end(&mut self) {
-        let RowSearch { searches, row, keys, others, time, .. } = self;
+        let RowSearch { searches, row, keys, others, time, step, .. } = self;
+        let (time, step) = (row[*time].number, step.map_or(0.0, |place| row[place].number));
+        let stage = others[0].map_or("", |place| &row[place].text);
         for search in searches {
             if search.is_about(row, keys, *others) {
                 if let Some(&key) = keys.first() {
                     search.found.note(&row[key].text);
                 }
-                search.see(row[*time].number, row[search.column].number);
+                let value = row[search.column].number;
+                match search.direction {
+                    Some(_) => search.add((stage, step, time), value),
+                    None => search.see(time, value),
+                }
             }
         }
     }
@@ -257,13 +275,44 @@ impl Found {
 }
 
 impl Search {
-    /// True where the number is the extreme of all rows.
-    fn takes_extreme(&self) -> bool {
-        !matches!(self.wanted.when, CollectedWhen::End | CollectedWhen::Time(_))
+    /// The number as far as it is found. There is none for one time of several subjects, unless it is a force, and none for moments about
+    /// several points: they have no sum.
+    fn number(&self) -> Option<f64> {
+        let is_extreme = !matches!(self.wanted.when, CollectedWhen::End | CollectedWhen::Time(_));
+        let is_one = match self.direction {
+            _ if !self.found.has_others => true,
+            Some(direction) => direction.starts_with('u'),
+            None => is_extreme,
+        };
+        match &self.found.sum {
+            _ if !is_one => None,
+            Some(sum) if self.takes(sum.time, sum.value) => Some(sum.value),
+            _ => self.found.best,
+        }
+    }
+
+    /// Adds the value of a row to those of its instant: a stage, a step and a time.
+    fn add(&mut self, (stage, step, time): (&str, f64, f64), value: f64) {
+        let sum = self.found.sum.get_or_insert_with(|| Sum { stage: stage.to_owned(), step, time, value: 0.0 });
+        if sum.stage == stage && sum.step == step && sum.time == time {
+            sum.value += value;
+            return;
+        }
+        let before = (sum.time, std::mem::replace(&mut sum.value, value));
+        stage.clone_into(&mut sum.stage);
+        (sum.step, sum.time) = (step, time);
+        self.see(before.0, before.1);
     }
 
     /// Takes the value of a row, if it is the one that is wanted so far.
     fn see(&mut self, time: f64, value: f64) {
+        if self.takes(time, value) {
+            self.found.best = Some(value);
+        }
+    }
+
+    /// True for the value of a row that is the one that is wanted so far.
+    fn takes(&self, time: f64, value: f64) -> bool {
         let takes = |best: f64| match self.wanted.when {
             CollectedWhen::Max => value > best,
             CollectedWhen::Min => value < best,
@@ -272,9 +321,7 @@ impl Search {
         };
         let is_apart = |at: f64| (time - at).abs() > SAME_TIME * at.abs().max(time.abs());
         let elsewhere = matches!(self.wanted.when, CollectedWhen::Time(at) if is_apart(at));
-        if value.is_finite() && !elsewhere && self.found.best.is_none_or(takes) {
-            self.found.best = Some(value);
-        }
+        value.is_finite() && !elsewhere && self.found.best.is_none_or(takes)
     }
 
     /// True for a row of the wanted subject, or of the wanted set, in the wanted stage.
@@ -286,7 +333,7 @@ impl Search {
         };
         let in_set = sets.is_some_and(|place| row[place].text.split(BETWEEN_SETS).any(|name| name == self.wanted.at));
         let is_subject = in_set || keys.is_empty() || says(keys[0], &self.wanted.at) || self.is_all(row, keys);
-        in_stage && is_subject
+        in_stage && is_subject && self.direction.is_none_or(|direction| keys.iter().any(|&key| says(key, direction)))
     }
 
     /// True if all keys of a row, separated by spaces, are the wanted subject.

@@ -1,9 +1,10 @@
 //! A column of one table over a column of another, as force over displacement.
 
 use super::disk::at;
-use super::table::names_subject;
+use super::table::{BETWEEN_SETS, SET, names_subject};
 use super::table_reader::{TableReader, fields, number, text};
 use serde::Serialize;
+use std::borrow::Cow;
 use std::io;
 use std::path::Path;
 use std::str::FromStr;
@@ -96,7 +97,7 @@ impl CurveAxis {
             rows.column(name).ok_or_else(|| at(&path, io::Error::other(format!("there is no column `{name}`"))))
         };
         let (time_at, place_of_value) = (place(&rows, "time")?, place(&rows, &self.column)?);
-        let step_at = rows.column("step");
+        let [step_at, set_at] = ["step", SET].map(|name| rows.column(name));
         let width = rows.header.len();
         let keys: Vec<usize> = (0..width).filter(|&key| rows.is_key(key) && names_subject(&rows.header[key])).collect();
         let (mut times, mut values, mut found) = (Vec::new(), Vec::new(), 0);
@@ -115,8 +116,14 @@ impl CurveAxis {
                 times.push(now.1);
                 values.push(0.0);
             }
-            let name = keys.iter().map(|&key| text(row[key]).into_owned()).collect::<Vec<_>>().join(" ");
-            if matches(&self.name, &name) {
+            let words: Vec<_> = keys.iter().map(|&key| text(row[key])).collect();
+            let is_meant = |first: &str| {
+                let others = words.iter().skip(1).map(Cow::as_ref);
+                matches(&self.name, &[first].into_iter().chain(others).collect::<Vec<_>>().join(" "))
+            };
+            let names = set_at.map(|set| text(row[set])).unwrap_or_default();
+            let own = words.first().map_or("", Cow::as_ref);
+            if is_meant(own) || names.split(BETWEEN_SETS).filter(|set| !set.is_empty()).any(is_meant) {
                 found += 1;
                 if let Some(sum) = values.last_mut() {
                     *sum += sign * number(row[place_of_value]);

@@ -9,11 +9,11 @@ const BUDGET: [(&str, usize); 11] = [
     ("mechanics", 36_830),
     ("deck", 5480),
     ("import", 11_530),
-    ("model", 29_200),
+    ("model", 29_220),
     ("solve", 36_520),
-    ("results", 11_580),
+    ("results", 11_600),
     ("study", 4280),
-    ("sweep", 1700),
+    ("sweep", 1725),
     ("program", 6770),
 ];
 

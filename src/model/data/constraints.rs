@@ -4,6 +4,7 @@ use base::math::Vec3;
 use base::math::turn::RotationAngles;
 use deck::supports::History;
 use mechanics::constraints::joint::{ConstraintEquation, Drive, SecondNode};
+use std::collections::HashMap;
 
 /// The constraints of a scene: rigid links, joints and restraints.
 #[derive(Debug, Clone, Default)]
@@ -20,6 +21,8 @@ pub struct Constraints {
     pub turns: Vec<GivenTurn>,
     /// The names of `[[ties]]`, in deck order.
     pub ties: Vec<String>,
+    /// For the label of each supported node the sets, groups and parts under which `[[supports]]` name it.
+    pub sets: HashMap<String, String>,
 }
 
 impl Constraints {

@@ -1,9 +1,9 @@
 //! reactions.csv: force or moment on the structure in every restrained direction, and on the first part of every joint.
 
 use crate::extent::Rows;
-use crate::table::{Answers, TableKind, WriteRow};
+use crate::table::{Answers, SET, TableKind, WriteRow};
 use base::quantities::{Axes, Column, REACTION, Unit, names};
-use model::{DIRECTIONS, ExpectAt, Restraint};
+use model::{DIRECTIONS, ExpectAt, Model, Restraint};
 use solve::{Frame, JointState, Wanted};
 use std::io;
 
@@ -22,10 +22,14 @@ pub static TABLE: TableKind = TableKind {
             Unit::ForceOrMoment,
         )
         .in_axes(Axes::Global),
+        Column::key(
+            SET,
+            "the sets, groups and parts under which `[[supports]]` name the node, with `|` between them; only where there are some",
+        ),
     ]],
     wanted: |model| model.output.reactions,
     needs: Wanted::REACTIONS,
-    has_last: |_| true,
+    has_last: |model| !model.constraints.sets.is_empty(),
     every_step: false,
     extent: |extent| {
         let model = extent.model;
@@ -36,7 +40,8 @@ pub static TABLE: TableKind = TableKind {
         let of_joints = joints.flat_map(|joint| [joint.name.as_str(); DIRECTIONS.len()]);
         let all = Rows::named(supports.chain(of_joints), 0);
         let idle = written().filter(|restraint| !extent.in_plane(restraint.dof)).count();
-        Rows { letters: all.letters + 2 * all.rows, numbers: all.rows - idle, ..all }
+        let sets: usize = written().filter_map(|held| set(model, &model.nodes[held.node].label)).map(str::len).sum();
+        Rows { letters: all.letters + 2 * all.rows + sets, numbers: all.rows - idle, ..all }
     },
     rows: |_| Box::new(write),
     answers: Some(Answers { quantities, needs: Wanted::REACTIONS, value }),
@@ -65,19 +70,29 @@ fn of_joint(joint: &JointState) -> [f64; 6] {
     [f.x, f.y, f.z, m.x, m.y, m.z]
 }
 
+/// The names of the sets of a supported node, empty without any; `None` where no support names a set.
+fn set<'m>(model: &'m Model, label: &str) -> Option<&'m str> {
+    let sets = &model.constraints.sets;
+    (!sets.is_empty()).then(|| sets.get(label).map_or("", String::as_str))
+}
+
 /// The effort of drives stands with their joints.
 fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     let Frame { model, step, state, derived, .. } = *frame;
     let held = model.constraints.restraints.iter().zip(frame.reactions);
     held.filter(|(restraint, _)| !model.nodes[restraint.node].is_number).try_for_each(|(restraint, value)| {
         let node = &model.nodes[restraint.node];
-        table.row(step, state.time).text(&node.label).text(DIRECTIONS[restraint.dof]).number(*value).end()
+        table.row(step, state.time).text(&node.label).text(DIRECTIONS[restraint.dof]).number(*value);
+        set(model, &node.label).into_iter().for_each(|set| _ = table.text(set));
+        table.end()
     })?;
     // A joint between a node and its support transmits the force of the support.
     model.constraints.joints.iter().zip(&derived.joints).filter(|(joint, _)| joint.is_listed()).try_for_each(
         |(joint, state_of)| {
             DIRECTIONS.iter().zip(of_joint(state_of)).try_for_each(|(direction, value)| {
-                table.row(step, state.time).text(&joint.name).text(direction).number(value).end()
+                table.row(step, state.time).text(&joint.name).text(direction).number(value);
+                set(model, "").into_iter().for_each(|set| _ = table.text(set));
+                table.end()
             })
         },
     )
