@@ -52,6 +52,7 @@ use super::plausibility::ties::Ties;
 use super::plausibility::units::check_units;
 use super::plausibility::unjoined::check_unjoined;
 use super::plausibility::unused::drop_unused;
+use super::plausibility::upward::check_upward;
 use super::plausibility::{check_content, check_static, check_use};
 use super::procedure::choose_scheme::choose_scheme;
 use super::procedure::control::{control, path_iteration};
@@ -510,6 +511,7 @@ fn check(
     check_units(deck, report);
     check_angles(deck, report);
     check_sudden_weight(deck, report);
+    check_upward(deck, report);
     mesh
 }
 

@@ -18,6 +18,7 @@ pub mod ties;
 pub mod units;
 pub mod unjoined;
 pub mod unused;
+pub mod upward;
 pub mod usage;
 
 use crate::places::nodes::Topology;

@@ -7,6 +7,7 @@ mod contacts;
 mod damping;
 mod explanation;
 mod links;
+mod load_sizes;
 mod mass_scaling;
 mod omitted;
 mod quantities;
@@ -18,6 +19,7 @@ mod solution;
 mod threads;
 
 pub use explanation::Explanation;
+pub use load_sizes::implausible_loads;
 pub use mass_scaling::{mass_added, much_mass_added};
 pub use redundant::redundant_constraints;
 

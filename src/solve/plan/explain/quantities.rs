@@ -9,7 +9,7 @@ use base::names::{short, to_digits};
 use base::quantities::{Unit, UnitSystem};
 use mechanics::amplitude::Amplitude;
 use mechanics::state::Node;
-use model::{self, DIRECTIONS, History, Load, Model};
+use model::{self, DIRECTIONS, History, Load, Model, Pressure};
 
 /// Times at which loads and motions are looked at, besides the points of tables.
 const SAMPLES: usize = 1000;
@@ -67,7 +67,7 @@ fn along(direction: &Vec3) -> String {
 }
 
 /// The times of the run at which loads and motions are looked at, ascending. Modes have one.
-fn times(model: &Model) -> Vec<f64> {
+pub fn times(model: &Model) -> Vec<f64> {
     let (begin, end) = (model.analysis.begin, model.analysis.end_time);
     if model.analysis.has_modes() {
         return vec![end];
@@ -92,15 +92,12 @@ fn loads(model: &Model, excitation: &Excitation, times: &[f64], units: Option<&U
         (0..3).for_each(|i| sums[place].1[i] += force[i]);
         (0..3).for_each(|i| sums[place].1[3 + i] += moment[i]);
     };
-    // The pretension of a link acts on a number, its shortening, and not in a direction.
-    let acts = |load: &&Load| load.coordinate().is_none() && !model.nodes[load.node].is_number;
-    for load in model.loading.nodal.iter().filter(acts) {
+    for load in model.loading.nodal.iter().filter(|load| acts(model, load)) {
         let moment = if load.moment_counts { load.moment } else { Vec3::zeros() };
         add(load.amplitude, load.force, moment);
     }
     for load in &model.loading.pressures {
-        let areas = load.faces.iter().flat_map(|face| face.areas(|node| model.nodes[node].x));
-        add(load.amplitude, areas.sum::<Vec3>() * -load.pressure, Vec3::zeros());
+        add(load.amplitude, pressing(model, load), Vec3::zeros());
     }
     if sums.is_empty() {
         return None;
@@ -130,6 +127,25 @@ fn loads(model: &Model, excitation: &Excitation, times: &[f64], units: Option<&U
     });
     let line: Vec<String> = line.collect();
     Some(if line.is_empty() { "sum to zero".to_owned() } else { line.join(", ") })
+}
+
+/// True for a force in a direction: the pretension of a link acts on a number, its shortening.
+pub fn acts(model: &Model, load: &Load) -> bool {
+    load.coordinate().is_none() && !model.nodes[load.node].is_number
+}
+
+/// The resultant of a pressure at t = 0.
+fn pressing(model: &Model, load: &Pressure) -> Vec3 {
+    let areas = load.faces.iter().flat_map(|face| face.areas(|node| model.nodes[node].x));
+    areas.sum::<Vec3>() * -load.pressure
+}
+
+/// The sum of the magnitudes of all forces and pressures, each times the `largest` value of its amplitude.
+pub fn acting_force(model: &Model, largest: &impl Fn(Option<usize>) -> f64) -> f64 {
+    let nodal = model.loading.nodal.iter().filter(|load| acts(model, load));
+    let forces = nodal.map(|load| load.force.norm() * largest(load.amplitude));
+    let pressures = model.loading.pressures.iter();
+    forces.chain(pressures.map(|load| pressing(model, load).norm() * largest(load.amplitude))).sum()
 }
 
 /// "mass 12 kg about (0, 0, 1) at a speed up to 100 rad/s; its forces at t = 0 sum to (0, 1200, 0) N", a line for each centrifugal load.
