@@ -27,7 +27,7 @@ pub fn limit_of_steps(model: &Model, system: &System) -> Option<(&'static str, S
     Some(("step", what))
 }
 
-/// The masses that `mass_scaling_step` would add for longer steps, a line for each.
+/// The masses that `mass_scaling_step` would add for longer steps, a line for each. After one that more than doubles the mass there are no others.
 pub fn offers(model: &Model, system: &System) -> Vec<(&'static str, String)> {
     let Some(found) =
         governed(model).then(|| governing(model, &system.groups, system.mass_scaling().is_some())).flatten()
@@ -35,9 +35,10 @@ pub fn offers(model: &Model, system: &System) -> Vec<(&'static str, String)> {
         return Vec::new();
     };
     let mass: f64 = system.inertias.iter().map(|inertia| inertia.weighing).sum();
-    let line = |(k, multiple): (usize, f64)| {
+    let offers = MULTIPLES.map(|multiple| (multiple, added_at(model, &system.groups, multiple * found.step)));
+    let bearable = offers.iter().take_while(|(_, added)| *added < mass).count();
+    let line = |(k, (multiple, added)): (usize, (f64, f64))| {
         let step = multiple * found.step;
-        let added = added_at(model, &system.groups, step);
         let what = format!(
             "`mass_scaling_step` = {}, {multiple} times the step, would add {}, {} % of the mass of the scene",
             to_digits(step, 3),
@@ -46,7 +47,7 @@ pub fn offers(model: &Model, system: &System) -> Vec<(&'static str, String)> {
         );
         (if k == 0 { "longer" } else { "" }, what)
     };
-    MULTIPLES.into_iter().enumerate().map(line).collect()
+    offers.into_iter().take(bearable + 1).enumerate().map(line).collect()
 }
 
 /// True where central differences move the scene.
