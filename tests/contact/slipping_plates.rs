@@ -1,10 +1,12 @@
 //! Bolted plates that slip in load steps, with nodes that lie over each other and with nodes that do not.
 
 use super::go;
+use rdsolve::math::rotation::log;
 use rdsolve::solve::{Frame, Outcome};
 
-/// Two plates of 8 mm overlap by 80 mm. A bolt presses them together by 20 kN, then one is drawn off the other by 0.5 mm; its mesh is moved by `shift`.
-fn plates(shift: f64) -> String {
+/// Two plates of a `thickness` overlap by 80 mm. A bolt presses them together by 20 kN, then one is drawn off the other by 0.5 mm; its mesh is moved by
+/// `shift`.
+fn plates(shift: f64, thickness: &str, stiffness: &str) -> String {
     let deck = r#"
         analysis = { kind = "static", end_time = 2.0, time_step = 0.1 }
         materials.steel = { model = "elastic", youngs_modulus = 210e9, poisson_ratio = 0.3 }
@@ -52,7 +54,8 @@ fn plates(shift: f64) -> String {
         fix = ["uy"]
         motion = { ux = { amplitude = "pull", scale = 0.0005 } }
         "#;
-    deck.replace("LEFT", &format!("{:?}", -0.04 + shift)).replace("RIGHT", &format!("{:?}", 0.12 + shift))
+    let deck = deck.replace("LEFT", &format!("{:?}", -0.04 + shift)).replace("RIGHT", &format!("{:?}", 0.12 + shift));
+    deck.replace("0.008", thickness).replace("1e9", stiffness)
 }
 
 /// The force is μ N as long as the plates slip, less what their slope of 0.5 % in the joint takes off. It is the same for both meshes, no step is
@@ -60,7 +63,7 @@ fn plates(shift: f64) -> String {
 #[test]
 fn bolted_plates_slip_alike_on_meshes_that_meet_and_on_others() {
     let forces = [0.0, 0.0025].map(|shift| {
-        let done = go(&plates(shift), &mut |frame: &Frame| {
+        let done = go(&plates(shift, "0.008", "1e9"), &mut |frame: &Frame| {
             let (contact, energy) = (&frame.derived.contacts[0], frame.derived.energy.expect("energies"));
             vec![frame.state.time, contact.f.x, energy.friction, energy.numerical]
         });
@@ -79,5 +82,23 @@ fn bolted_plates_slip_alike_on_meshes_that_meet_and_on_others() {
     for (one, other) in forces[0].iter().zip(&forces[1]) {
         // Measured 5e-4 as they break loose, then 1.5e-4: the meshes differ in where the points press.
         assert!((one - other).abs() < 1e-3 * one, "{forces:?}");
+    }
+}
+
+/// Plates of 4 mm on a contact of 1e10, which slips after 8 nm: no step is shortened, and the resultant of all points leans by the angle of friction
+/// against the normal of the joint, which turns with the nut.
+#[test]
+fn thin_plates_slip_on_a_stiff_contact() {
+    let done = go(&plates(0.0025, "0.004", "1e10"), &mut |frame: &Frame| {
+        let f = frame.derived.contacts[0].f;
+        let nut = &frame.state.nodes[frame.model.bodies[1].node];
+        vec![frame.state.time, f.x.abs().atan2(f.z.abs()), log(&nut.rotation).y.abs()]
+    });
+    assert!(matches!(done.outcome, Outcome::Done), "{:?}", done.outcome);
+    let pulled: Vec<_> = done.rows.iter().filter(|row| row[0] > 1.0 + 1e-9).collect();
+    assert_eq!(pulled.len(), 10, "steps are shortened");
+    for row in pulled {
+        // Beyond the nut the plate bends: measured 4e-4 as the joint breaks loose, then 1e-4.
+        assert!((row[1] + row[2] - 0.2_f64.atan()).abs() < 6e-4, "{row:?}");
     }
 }

@@ -3,10 +3,12 @@
 use linear::{Factorization, Structure};
 use model::Gyroscopic;
 
-/// The factorization for this structure: LU where the deck wants gyroscopic terms in the matrix, else the cheaper one.
-pub fn kind(structure: &Structure, gyroscopic: Gyroscopic) -> Factorization {
+/// The factorization for this structure: LU where the deck wants gyroscopic terms in the matrix, else the cheaper one. Load steps in which
+/// contacts slip do not converge without the unsymmetric part of friction, for no inertia holds what slips.
+pub fn kind(structure: &Structure, gyroscopic: Gyroscopic, slips_in_load_steps: bool) -> Factorization {
     match gyroscopic {
         Gyroscopic::Left => Factorization::BlockLu,
+        Gyroscopic::Auto if slips_in_load_steps => Factorization::BlockLu,
         Gyroscopic::Auto | Gyroscopic::Right => Factorization::choose(structure),
     }
 }

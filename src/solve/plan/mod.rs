@@ -62,7 +62,10 @@ impl Plan {
         let kind = match model.analysis.is_linear() {
             // Without loads the stiffness at t = 0 is symmetric.
             true => linear::Factorization::Cholesky,
-            false => choose::kind(&structure, model.solution.iteration.gyroscopic),
+            false => {
+                let slips = model.analysis.is_static() && system.rubs();
+                choose::kind(&structure, model.solution.iteration.gyroscopic, slips)
+            }
         };
         // A body that rotates in space has J = R J₀ Rᵀ and a gyroscopic moment; about one fixed axis neither changes.
         let mut driven = vec![[false; 6]; nodes.len()];

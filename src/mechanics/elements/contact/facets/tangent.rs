@@ -152,9 +152,13 @@ fn gradients(facet: &Facet, at: &FacetPoint, p: &[Vec3; 4]) -> ([Vec3; 3], Mat3)
     }
 }
 
-/// Friction by central differences of its forces, each motion together with its rate. The step is a millionth of the pair's size. Forces
-/// are smooth over far larger motions, and their rounding error is 1e-9. A sticking pair is kept sticking in the differences: a pair at
-/// first touch would otherwise slip at the smallest step.
+/// Largest and least step of the differences of friction, as parts of the pair's size: rounding errs by 1e-9 with the first, by 1e-5 with the second.
+const STEPS: [f64; 2] = [1e-6, 1e-10];
+/// Step of these differences as a part of the stretch, or the depth, at which the force has its next kink.
+const BEFORE_KINK: f64 = 0.01;
+
+/// Friction by central differences of its forces, each motion together with its rate. A stiff contact slips after nanometres, and steps beyond would
+/// mix sticking with slipping. A sticking pair is kept sticking in the differences: a pair at first touch would otherwise slip at the smallest step.
 fn add_friction(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight: f64, K: &mut [f64]) {
     let count = pair.point.count + pair.facet.corners;
     let mut local = [Node::at_rest(Vec3::zeros()); MOST_OF_PAIR + MOST_CORNERS + 2];
@@ -176,12 +180,16 @@ fn add_friction(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight
     let kept_line = std::array::from_fn(|k| keep(pair.kept_line[k], count + MOST_CORNERS + k));
     let left = Facet { nodes: left, ..pair.kept.clone() };
     let kept = if std::ptr::eq(pair.kept, pair.facet) { &facet } else { &left };
-    let slips = pair.force(place, nodes).friction.is_some_and(|friction| friction.slip != Vec3::zeros());
+    let force = pair.force(place, nodes);
+    let slipping = force.friction.as_ref().filter(|friction| friction.slip != Vec3::zeros());
+    let to_kink = slipping.map_or(force.normal.force, |friction| friction.T.norm()) / pair.law.stiffness;
+    let slips = slipping.is_some();
     let pair = FacetPair { point, facet: &facet, kept, kept_line, sticks: !slips, ..pair.clone() };
     let length = place.reach.max(place.d.abs()).max(place.at.g.norm());
+    let relative = if to_kink > 0.0 { (BEFORE_KINK * to_kink / length).clamp(STEPS[1], STEPS[0]) } else { STEPS[0] };
     for column in 0..6 * count {
         let (k, dof) = (column / 6, column % 6);
-        let h = if dof < 3 { 1e-6 * length } else { 1e-6 };
+        let h = if dof < 3 { relative * length } else { relative };
         let mut at = |sign: f64| {
             let kept = local[k];
             let step = Vec3::ith(dof % 3, sign * h);
