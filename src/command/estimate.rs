@@ -98,7 +98,7 @@ fn rehearse(model: &Model, system: &System, plan: &Plan) -> Option<Rehearsal> {
     });
     let reached = match outcome {
         Outcome::Done => analysis.end_time,
-        Outcome::Stopped { time } | Outcome::Failed { time, .. } => time,
+        Outcome::Stopped { time, .. } | Outcome::Failed { time, .. } => time,
         Outcome::Io(_) => return None,
     };
     let steps = match &analysis.step_length {

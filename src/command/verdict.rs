@@ -49,8 +49,9 @@ pub fn end(outcome: Outcome, short: Option<String>, expectations: &[Verdict]) ->
             is_valid_before = valid_until < time;
             (status, format!("at t = {}: {failure}", instant(time)), Some(valid_until))
         }
-        Outcome::Stopped { time } => {
-            (Status::Stopped, format!("stopped by a signal at t = {}", instant(time)), Some(time))
+        Outcome::Stopped { time, cut } => {
+            let why = cut.as_ref().map_or_else(String::new, |cut| format!(" in a step that was cut back: {cut}"));
+            (Status::Stopped, format!("stopped by a signal at t = {}{why}", instant(time)), Some(time))
         }
         Outcome::Done => match expectations.iter().filter(|verdict| !verdict.passed).count() {
             0 => (Status::Done, String::new(), None),

@@ -367,7 +367,7 @@ impl Run<'_> {
             Outcome::Done => self.judge(control, Some((OtherRun::Comparison, comparison)), observer),
             Outcome::Failed { .. } => self.judge(control, None, observer),
             Outcome::Stopped { .. } => {
-                let stopped = Outcome::Stopped { time: model.analysis.end_time };
+                let stopped = Outcome::stopped(model.analysis.end_time);
                 Some((stopped, Some(std::mem::take(&mut judged.state))))
             }
             Outcome::Io(_) => Some((outcome, Some(std::mem::take(&mut judged.state)))),

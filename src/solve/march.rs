@@ -71,7 +71,7 @@ impl March<'_, '_> {
         }
         // A step after this pause may be aborted and repeated from here.
         self.ws.matrix.in_step = true;
-        if stops { Err(Outcome::Stopped { time: self.state.time }) } else { Ok(()) }
+        if stops { Err(Outcome::stopped(self.state.time)) } else { Ok(()) }
     }
 
     /// The outcome of a run whose `controller` failed in a step. A step aborted by a signal writes a checkpoint.
@@ -79,7 +79,7 @@ impl March<'_, '_> {
         match failure {
             Failure::Stopped if !self.ws.matrix.loses_nothing => {
                 let time = self.state.time;
-                self.pause(controller).err().unwrap_or(Outcome::Stopped { time })
+                self.pause(controller).err().unwrap_or(Outcome::stopped(time))
             }
             failure => self.failed(failure),
         }

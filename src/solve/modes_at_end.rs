@@ -151,7 +151,7 @@ fn show(march: &mut March, controller: &mut Controller) -> Result<(), Outcome> {
     let progress = ResponseProgress { so_far: &mut ws.response, pauses: &mut || observer.wants_checkpoint(false) };
     let found = find(&at, (&mut ws.matrix.solver, &mut ws.matrix.assembly), progress);
     let mut modes = found.map_err(|fault| match fault {
-        ModesFault::Stopped => Outcome::Stopped { time: march.state.time },
+        ModesFault::Stopped => Outcome::stopped(march.state.time),
         fault => march.failed(Failure::Modes(fault)),
     })?;
     modes.warnings.extend(left.map(|left| {

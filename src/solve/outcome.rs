@@ -19,16 +19,23 @@ pub enum Outcome {
     Stopped {
         /// The end of the last step; results are valid up to it.
         time: f64,
+        /// The failure that has cut the step under way.
+        cut: Option<Failure>,
     },
     /// The observer could not write.
     Io(std::io::Error),
 }
 
 impl Outcome {
+    /// The outcome of a run that a signal stopped after this time.
+    pub(super) fn stopped(time: f64) -> Outcome {
+        Outcome::Stopped { time, cut: None }
+    }
+
     /// The outcome of a run that ends at a time by a failure for the shortest step.
     pub(super) fn of(failure: Failure, time: f64) -> Outcome {
         match failure {
-            Failure::Stopped => Outcome::Stopped { time },
+            Failure::Stopped => Outcome::stopped(time),
             failure => Outcome::Failed { time, failure },
         }
     }

@@ -49,7 +49,7 @@ fn find_modes_of_damping(cx: &Context, warnings: &mut Warnings, stop: &AtomicBoo
             "`modal` damping asks for {wanted} modes, and the scene has {found}: all are damped. Give `modes` = {found}"
         ))),
         Ok(_) => {}
-        Err(ModesFault::Stopped) => return Err(Outcome::Stopped { time: begin }),
+        Err(ModesFault::Stopped) => return Err(Outcome::stopped(begin)),
         Err(fault) => return Err(Outcome::of(Failure::Modes(fault), begin)),
     }
     Ok(())

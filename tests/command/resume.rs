@@ -353,9 +353,24 @@ pressure = 1e3
         let mut run = Run::new(&model, &system, &plan, wanted(&model), &stop).unwrap();
         let mut signal = Signal { stop: &stop, steps_before, asked: 0, rows: 0, checkpoints: 0 };
         let (outcome, _) = run.run(&mut signal);
-        assert!(matches!(outcome, Outcome::Stopped { time } if time == end), "{steps_before}: {outcome:?}");
+        assert!(matches!(outcome, Outcome::Stopped { time, .. } if time == end), "{steps_before}: {outcome:?}");
         assert_eq!((signal.rows, signal.checkpoints), (rows, checkpoints), "{steps_before}");
     }
+}
+
+/// A run that is stopped while its step is halved again and again says what it was halved for.
+#[test]
+fn a_signal_in_a_step_that_is_cut_back_tells_why() {
+    let model = crate::support::read_deck(include_str!("../../decks/extreme/overloaded/deck.toml"));
+    let system = System::new(&model).unwrap();
+    let plan = Plan::new(&model, &system, 1);
+    let stop = AtomicBool::new(false);
+    let mut run = Run::new(&model, &system, &plan, wanted(&model), &stop).unwrap();
+    let mut signal = Signal { stop: &stop, steps_before: 3, asked: 0, rows: 0, checkpoints: 0 };
+    let (outcome, _) = run.run(&mut signal);
+    let Outcome::Stopped { time, cut: Some(failure) } = outcome else { panic!("{outcome:?}") };
+    assert_eq!(time, 0.0);
+    assert!(failure.to_string().contains("unbalanced forces"), "{failure}");
 }
 
 /// A run that a signal has ended before its first step was done leaves a result without a checkpoint, and begins anew.

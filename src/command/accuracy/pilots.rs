@@ -84,7 +84,7 @@ impl Pilots<'_> {
         match outcome {
             Outcome::Done => Ok(observed),
             Outcome::Failed { time, failure } => Err(format!("the pilot run{with} ends at t = {time}: {failure}")),
-            Outcome::Stopped { time } => Err(format!("the pilot run{with} was stopped at t = {time}")),
+            Outcome::Stopped { time, .. } => Err(format!("the pilot run{with} was stopped at t = {time}")),
             Outcome::Io(error) => Err(error.to_string()),
         }
     }

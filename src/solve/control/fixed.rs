@@ -74,7 +74,7 @@ impl<'a> FixedController<'a> {
             self.step = Substeps::of(march.state.time, interval.time(k));
         }
         while self.step.at < WHOLE_STEP {
-            march.pause(self)?;
+            march.pause(self).map_err(|outcome| self.step.stopped_in(outcome))?;
             let target = self.step.target();
             let dt = target - march.state.time;
             if let Some(watch) = march.stop_watch.as_deref_mut() {
@@ -96,7 +96,10 @@ impl<'a> FixedController<'a> {
                     self.check_substeps(march, dt)?;
                     self.step.grow();
                 }
-                Err(Failure::Stopped) => return Err(march.failed_step(self, Failure::Stopped)),
+                Err(Failure::Stopped) => {
+                    let outcome = march.failed_step(self, Failure::Stopped);
+                    return Err(self.step.stopped_in(outcome));
+                }
                 Err(failure) => {
                     self.step.cut_back(march, failure, dt)?;
                     march.count_cut();
@@ -217,6 +220,16 @@ impl Substeps {
     /// The substep that was taken, as the recorder receives it.
     fn accepted<'s>(&self, report: &'s StepReport, dt: f64) -> AcceptedStep<'s> {
         AcceptedStep { dt, report, cuts: self.cuts, due: false, compared: false, last: false, passed: &[] }
+    }
+
+    /// The outcome of a run that ends in this step: a stopped one gets the failure that the substep under way was cut for.
+    fn stopped_in(&self, outcome: Outcome) -> Outcome {
+        match outcome {
+            Outcome::Stopped { time, .. } => {
+                Outcome::Stopped { time, cut: self.cause.clone().filter(|_| self.cuts > 0) }
+            }
+            outcome => outcome,
+        }
     }
 
     /// Doubles the substep where two were taken and a longer one fits.
