@@ -69,6 +69,10 @@ fn the_pictures_of_the_gallery_are_there_and_small() {
             .unwrap_or_else(|e| panic!("{}: {e}; scripts/gallery.py draws it", picture.display()));
         assert!(text.starts_with("<svg ") && text.contains("prefers-color-scheme:dark"), "{}", picture.display());
         assert!(text.len() as u64 <= MOST[0], "{} has {} bytes", picture.display(), text.len());
+        let names = text.split("class=\"").skip(1).flat_map(|rest| rest.split('"').next().unwrap().split(' '));
+        let (style, _) = text.split_once("</style>").unwrap();
+        names
+            .for_each(|name| assert!(style.contains(&format!(".{name}")), "{}: no rule for {name}", picture.display()));
         sum += text.len() as u64;
     }
     assert!(sum <= MOST[1], "{sum} bytes of pictures");

@@ -39,12 +39,22 @@ const PLAIN: [f64; 3] = [158.0, 166.0, 176.0];
 const SHADES: [f64; 2] = [12.0, 24.0];
 /// Space at the upper and the lower rim, and at the sides, in pixels.
 const RIMS: [f64; 3] = [36.0, 40.0, 12.0];
-const STYLE: &str = "text{font:11px Helvetica,Arial,sans-serif;fill:#24292f}.f path{fill:currentColor;stroke:currentColor;stroke-width:2;stroke-linejoin:round}.e path{stroke:#24292f;stroke-opacity:.35}\
-.l{fill:none;stroke-width:10;stroke-linecap:round;stroke-linejoin:round}.g{fill:none;stroke:#8c959f;stroke-width:4;stroke-dasharray:12 10}\
-.s{stroke:#24292f;fill:none}.h{stroke:#6f7782;fill:#6f7782;fill-opacity:.5;stroke-width:1.3}.j{stroke:#8250df;fill:none;stroke-width:1.5}.a{stroke:#d6336c;fill:#d6336c;stroke-width:1.4}\
-@media(prefers-color-scheme:dark){text{fill:#e6edf3}.s,.e path{stroke:#e6edf3}}";
+/// The rules of the style, each with the class of its elements; those without one stand in every picture.
+const STYLES: [(&str, &str); 9] = [
+    ("", "text{font:11px Helvetica,Arial,sans-serif;fill:#24292f}"),
+    ("f", ".f path{fill:currentColor;stroke:currentColor;stroke-width:2;stroke-linejoin:round}"),
+    ("e", ".e path{stroke:#24292f;stroke-opacity:.35}"),
+    ("l", ".l{fill:none;stroke-width:10;stroke-linecap:round;stroke-linejoin:round}"),
+    ("g", ".g{fill:none;stroke:#8c959f;stroke-width:4;stroke-dasharray:12 10}"),
+    ("", ".s{stroke:#24292f;fill:none}"),
+    ("h", ".h{stroke:#6f7782;fill:#6f7782;fill-opacity:.5;stroke-width:1.3}"),
+    ("j", ".j{stroke:#8250df;fill:none;stroke-width:1.5}"),
+    ("a", ".a{stroke:#d6336c;fill:#d6336c;stroke-width:1.4}"),
+];
+/// The rule of dark paper.
+const DARK: &str = "@media(prefers-color-scheme:dark){text{fill:#e6edf3}.s,.e path{stroke:#e6edf3}}";
 
-/// The width of a line without a section, in parts of a pixel, as [`STYLE`] has it.
+/// The width of a line without a section, in parts of a pixel, as [`STYLES`] has it.
 const THIN: i64 = 10;
 
 /// Cosine of the angle between two faces above which their edge is not drawn: 30 degrees.
@@ -164,14 +174,7 @@ pub fn draw(scene: &PageScene, result: &Result, title: &str, frame: usize, view:
     let faces = faces(scene, &at, &sight);
     let has_moved = shown.iter().any(|&i| (0..2).any(|k| (now[i][k] - before[i][k]).abs() > 2 * PARTS as i64));
 
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" width=\"{}\" role=\"img\"><title>{}</title><style>{STYLE}</style>\n<g transform=\"scale({})\">",
-        size[0],
-        size[1],
-        size[0],
-        escaped(title),
-        1.0 / PARTS
-    );
+    let mut out = format!("<g transform=\"scale({})\">", 1.0 / PARTS);
     if has_moved {
         let mut outline = outline(&faces);
         outline.extend(scene.lines.as_chunks::<2>().0);
@@ -194,7 +197,23 @@ pub fn draw(scene: &PageScene, result: &Result, title: &str, frame: usize, view:
         out += &legend(&field, size, result.units());
     }
     out += &sides(&sight, size, &note(scene, frame, view, result), &Unit::Length.text(result.units()));
-    out + "</svg>\n"
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" width=\"{}\" role=\"img\"><title>{}</title><style>{}</style>\n{out}</svg>\n",
+        size[0],
+        size[1],
+        size[0],
+        escaped(title),
+        style(&out)
+    )
+}
+
+/// The rules that the elements of a picture use.
+fn style(elements: &str) -> String {
+    let names = || {
+        elements.split("class=\"").skip(1).flat_map(|rest| rest.split('"').take(1)).flat_map(|names| names.split(' '))
+    };
+    let is_used = |class: &str| class.is_empty() || names().any(|name| name == class);
+    STYLES.iter().filter(|(class, _)| is_used(class)).map(|(_, rule)| *rule).chain([DARK]).collect()
 }
 
 /// The points of faces, lines and marks with finite coordinates.
