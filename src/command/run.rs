@@ -115,7 +115,7 @@ pub struct Case<'a> {
     pub deck: &'a str,
     /// The digests of the files that the sweep has found when it began.
     pub files: &'a HashMap<PathBuf, Vec<u8>>,
-    /// The numbers that are all that is kept; `None`: the files are.
+    /// The numbers kept in place of files; `None` if files are kept.
     pub only: Option<&'a [Collected]>,
 }
 
@@ -127,13 +127,12 @@ pub struct CaseEnd {
     pub reason: String,
     /// The warnings of the run.
     pub warnings: Vec<String>,
-    /// The numbers that are all that is kept, in their order.
+    /// The numbers kept in place of files, in their order.
     pub numbers: Option<Vec<Option<f64>>>,
 }
 
-/// Runs a variant of a deck on one thread, without messages, in a separate folder, and leaves its result unmarked. Where numbers are all that is
-/// kept, no file is written unless a checkpoint is. The run continues from the
-/// checkpoint of a stopped run, or of a killed run whose deck requests checkpoints.
+/// Runs a variant of a deck on one thread, without messages, in a separate folder, and leaves its result unmarked. With `only`, it writes
+/// nothing but checkpoints. The run continues from the checkpoint of a stopped run, or of a killed run whose deck requests checkpoints.
 ///
 /// # Errors
 /// The obstacle: errors of the deck as text, or an error of input/output.
@@ -307,7 +306,7 @@ struct Job<'a> {
     checkpoints: Option<CheckpointsWanted>,
     /// True if the result is final once written; otherwise the caller marks it, and removes the checkpoint.
     marks: bool,
-    /// The numbers that are all that is kept; `None`: the files are.
+    /// The numbers kept in place of files; `None` if files are kept.
     only: Option<&'a [Collected]>,
     quiet: bool,
     mesh_error: bool,
@@ -395,14 +394,15 @@ impl Job<'_> {
             marks: if writes { SceneMarks::of(&self.loaded.models()) } else { SceneMarks::default() },
         };
         let serves = end.status == Status::Stopped || watchers.checkpoints.is_some_and(|last| last.is_over());
-        if writes {
-            self.leave(&result, serves)?;
-        }
+        self.leave(&result, serves)?;
         Ok(Ended { end, result, lines, numbers: watchers.files.numbers() })
     }
 
-    /// Writes the result, and removes a useless checkpoint; for a case the caller does both when its files are safe.
+    /// Writes the result unless numbers alone are kept, and removes a useless checkpoint; for a case the caller does both when its files are safe.
     fn leave(&self, result: &RunResult, checkpoint_serves: bool) -> io::Result<()> {
+        if self.only.is_some() {
+            return Ok(());
+        }
         if !self.marks {
             return result.write_unmarked(self.folder);
         }

@@ -33,7 +33,7 @@ pub struct CheckpointOrigin {
     pub files: Vec<(String, String)>,
     /// True with `--mesh-error`.
     pub mesh_error: bool,
-    /// The list of numbers that a sweep keeps of the run; empty where the run keeps its files.
+    /// The list of numbers kept in place of files; empty if files are kept.
     pub numbers: String,
     /// The level of instructions of the run. It may change, because a scheduler may continue the run on another machine.
     pub instructions: String,

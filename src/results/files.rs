@@ -67,7 +67,7 @@ pub struct Files {
     envelopes: Envelopes,
     frd: Option<FrdFile>,
     flushed: Instant,
-    /// The numbers that are all that is kept; `None`: the files are.
+    /// The numbers kept in place of files; `None` if files are kept.
     only: Option<Vec<Collected>>,
 }
 
@@ -124,7 +124,7 @@ impl Files {
         Ok(())
     }
 
-    /// The numbers that are all that is kept, `None` for each that no row has; `None` where files are kept.
+    /// The numbers kept in place of files, `None` for each that no row has; `None` if files are kept.
     pub fn numbers(&self) -> Option<Vec<Option<f64>>> {
         let only = self.only.as_ref()?;
         Some(found(self.tables.iter().filter_map(|table| table.file.search()), only.len()))

@@ -237,7 +237,7 @@ impl TableFile {
     }
 }
 
-/// Cuts a file that could not grow by these rows back to whole ones, and returns the number of bytes that it has gained.
+/// Cuts a file back to whole ones of these rows after it could not grow, and returns the number of bytes gained.
 fn cut_back(file: &File, written: u64, rows: &[u8]) -> u64 {
     let grown = file.metadata().map_or(0, |file| file.len().saturating_sub(written)) as usize;
     let taken = &rows[..grown.min(rows.len())];

@@ -57,7 +57,7 @@ impl SweepFolder {
         self.path.join(&self.names[case])
     }
 
-    /// The numbers that are all that is kept of a case; `None` where folders may stay.
+    /// The numbers kept of a case in place of files; `None` where folders may stay.
     pub fn only(&self) -> Option<&[Collected]> {
         (self.keep == KeptFolders::Summary).then_some(&self.collect)
     }
