@@ -132,12 +132,12 @@ struct Search {
     column: usize,
     /// The direction of the rows that are summed at each instant, of a reaction.
     direction: Option<&'static str>,
-    found: Found,
+    found: FoundSoFar,
 }
 
 /// The result of a search so far.
 #[derive(Debug, Clone, Default)]
-pub struct Found {
+pub struct FoundSoFar {
     best: Option<f64>,
     /// The first key of the first row taken.
     subject: Option<String>,
@@ -156,7 +156,7 @@ struct Sum {
     value: f64,
 }
 
-keep!(Found: Default { best, subject, has_others, sum });
+keep!(FoundSoFar: Default { best, subject, has_others, sum });
 keep!(Sum: Default { stage, step, time, value });
 
 impl RowSearch {
@@ -168,7 +168,7 @@ impl RowSearch {
                 Some(column) => (column, None),
                 None => (column(REACTION)?, Some(reaction_direction(&wanted.quantity)?)),
             };
-            Some(Search { wanted: wanted.clone(), place, order, column, direction, found: Found::default() })
+            Some(Search { wanted: wanted.clone(), place, order, column, direction, found: FoundSoFar::default() })
         };
         let searches: Vec<Search> = asked_of(kind, wanted).filter_map(search).collect();
         let time = column("time").filter(|_| !searches.is_empty())?;
@@ -254,17 +254,17 @@ impl RowSearch {
     }
 
     /// The results so far, to go back to.
-    pub fn so_far(&self) -> Vec<Found> {
+    pub fn so_far(&self) -> Vec<FoundSoFar> {
         self.searches.iter().map(|search| search.found.clone()).collect()
     }
 
     /// Goes back to earlier results of the same search.
-    pub fn go_back(&mut self, to: &[Found]) {
+    pub fn go_back(&mut self, to: &[FoundSoFar]) {
         self.searches.iter_mut().zip(to).for_each(|(search, found)| search.found.clone_from(found));
     }
 }
 
-impl Found {
+impl FoundSoFar {
     /// Notes the subject of a row that is taken.
     fn note(&mut self, subject: &str) {
         match &self.subject {

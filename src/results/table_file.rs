@@ -4,7 +4,7 @@
 //! cannot grow, it is cut back to its last whole row. A run that is killed during the call may tear a row, which readers omit. The csv crate
 //! is for readers: its writer hands over whatever fills its buffer.
 
-use super::collected::{Found, RowSearch};
+use super::collected::{FoundSoFar, RowSearch};
 use super::disk::{at, create, is_same};
 use super::table::WriteRow;
 use base::row_text::RowText;
@@ -33,7 +33,7 @@ pub struct TableFile {
     /// The number of bytes before the rows of the stage under way.
     before_stage: u64,
     /// The numbers found before them.
-    found_before: Vec<Found>,
+    found_before: Vec<FoundSoFar>,
     empty: Option<EmptyFields>,
 }
 
@@ -62,8 +62,8 @@ pub struct TableMark {
     written: u64,
     stage: String,
     before_stage: u64,
-    found: Vec<Found>,
-    found_before: Vec<Found>,
+    found: Vec<FoundSoFar>,
+    found_before: Vec<FoundSoFar>,
     empty: Option<EmptyFields>,
 }
 
@@ -165,7 +165,7 @@ impl TableFile {
     }
 
     /// The results of the search so far; none of a file.
-    fn found(&self) -> Vec<Found> {
+    fn found(&self) -> Vec<FoundSoFar> {
         self.search().map_or(Vec::new(), RowSearch::so_far)
     }
 
