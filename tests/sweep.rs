@@ -648,7 +648,7 @@ fn a_stopped_case_without_files_goes_on() {
     let sweep = format!("keep = \"summary\"\ndeck = \"deck.toml\"\n[vary]\n\"bodies.block.mass\" = [1.0]\n{collect}");
     let folder = files(&sweep);
     let folder = folder.path();
-    let long = DECK.replace("end_time = 1.0", "end_time = 2000.0").replace("[output]", "[output]\nevery = 500");
+    let long = DECK.replace("end_time = 1.0", "end_time = 400.0").replace("[output]", "[output]\nevery = 500");
     fs::write(folder.join("deck.toml"), long).unwrap();
     fs::write(folder.join("all.toml"), sweep.replace("keep = \"summary\"\n", "")).unwrap();
     assert!(rdsolve(folder, &["sweep", "all.toml", "-o", "all"]).status.success());
@@ -660,7 +660,7 @@ fn a_stopped_case_without_files_goes_on() {
         assert!(process.try_wait().unwrap().is_none(), "it came to its end before it was stopped");
         std::thread::sleep(Duration::from_millis(1));
     }
-    // The steps begin a millisecond later, and take seconds.
+    // The steps begin a millisecond later, and take a second.
     std::thread::sleep(Duration::from_millis(200));
     std::process::Command::new("kill").args(["-TERM", &process.id().to_string()]).status().unwrap();
     assert_eq!(process.wait_with_output().unwrap().status.code(), Some(75));
