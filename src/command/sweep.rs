@@ -23,11 +23,11 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex};
 use sweep::alike::alike;
-use sweep::case_state::{CaseOutcome, CaseState, one_line};
+use sweep::case_state::{CaseOutcome, CaseState, Computed, one_line};
 use sweep::cases::Cases;
 use sweep::file::{self, SweepFile};
 use sweep::folder::{FAILURE, SweepFolder};
-use sweep::marks::{Computed, mark_all};
+use sweep::marks::mark_all;
 
 #[derive(Debug, Args)]
 #[command(

@@ -1,6 +1,8 @@
 //! The state of a case of a sweep.
 
+use results::FolderLock;
 use results::result_json::Status;
+use std::path::PathBuf;
 
 /// The state of a case.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -62,6 +64,19 @@ impl CaseOutcome {
     pub fn without_result(state: CaseState) -> CaseOutcome {
         CaseOutcome { state, warnings: Vec::new() }
     }
+}
+
+/// A case that has come to its end and is not marked yet.
+#[derive(Debug)]
+pub struct Computed {
+    /// Its folder.
+    pub folder: PathBuf,
+    /// The lock, which is let go when the case is marked.
+    pub lock: FolderLock,
+    /// Its end; a pending case was stopped by a signal, and keeps its checkpoint for the continuation.
+    pub outcome: CaseOutcome,
+    /// The numbers of a case without files, `None` for each that no table has; `None`: the case has files.
+    pub numbers: Option<Vec<Option<f64>>>,
 }
 
 /// The first lines of a reason as one.

@@ -3,10 +3,9 @@
 //! Any number of processes on any number of machines may fill one folder at once: a case belongs to the process that locks its folder, and
 //! is complete once its `result.json` exists. Files that all of them write are moved in whole, and are the same bytes whoever writes them.
 
-use super::case_state::{CaseOutcome, CaseState, one_line};
+use super::case_state::{CaseOutcome, CaseState, Computed, one_line};
 use super::cases::Cases;
 use super::file::{KeptFolders, SweepFile};
-use super::marks::Computed;
 use super::page::page;
 use super::records::{Records, remove_folder};
 use base::diagnostic::Source;

@@ -1,30 +1,16 @@
 //! The marks of completed cases. A case is marked once all of its files are safe on the disk, so that no case seems complete after a power
 //! cut but is not. Cases that end while others are being made safe are made safe together.
 
-use super::case_state::{CaseOutcome, CaseState};
+use super::case_state::{CaseState, Computed};
 use super::folder::SweepFolder;
 use results::checkpoint::Checkpoint;
-use results::{FolderLock, make_safe, result_json};
+use results::{make_safe, result_json};
 use std::io;
-use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
 /// The time between two calls that make files safe: a case waits no longer than this for others.
 const APART: Duration = Duration::from_millis(200);
-
-/// A case that has come to its end and is not marked yet.
-#[derive(Debug)]
-pub struct Computed {
-    /// Its folder.
-    pub folder: PathBuf,
-    /// The lock, which is let go when the case is marked.
-    pub lock: FolderLock,
-    /// Its end; a pending case was stopped by a signal, and keeps its checkpoint for the continuation.
-    pub outcome: CaseOutcome,
-    /// The numbers of a case without files, `None` for each that no table has; `None`: the case has files.
-    pub numbers: Option<Vec<Option<f64>>>,
-}
 
 /// Marks cases in the folder of a sweep as they come, until no more do.
 ///
@@ -58,8 +44,10 @@ pub fn mark_all(within: &SweepFolder, computed: &Receiver<Computed>) -> io::Resu
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case_state::CaseOutcome;
     use crate::cases::Cases;
     use crate::file::SweepFile;
+    use results::FolderLock;
     use std::fs;
     use std::sync::mpsc::channel;
 
