@@ -29,7 +29,7 @@ const WIDE: Known = &[
     ("import/build.rs: Build", 16),
     ("import/file_content.rs: StepCard", 16),
     ("model/data/model.rs: Model", 18),
-    ("model/data/output.rs: Output", 18),
+    ("model/data/output.rs: Output", 17),
     ("results/result_json.rs: RunResult", 16),
     ("solve/derived.rs: Derived", 16),
     ("solve/frame.rs: Frame", 17),
