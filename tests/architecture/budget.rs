@@ -11,10 +11,10 @@ const BUDGET: [(&str, usize); 11] = [
     ("import", 11_530),
     ("model", 29_260),
     ("solve", 36_650),
-    ("results", 11_615),
+    ("results", 12_085),
     ("study", 4280),
-    ("sweep", 1725),
-    ("program", 6770),
+    ("sweep", 1520),
+    ("program", 6785),
 ];
 
 #[test]
