@@ -99,7 +99,7 @@ fn a_recommended_deck_gives_the_bytes_of_the_run() {
 
 /// Pilot runs on finer meshes keep the long steps of the first. With steps by their own tolerance they took 0.6 of the steps of the run, now 0.2. They damp
 /// the twist of the block away, so their difference to the run does not lengthen later steps. Longer ones made the twist err by 6.7e-3. Later steps may
-/// be shorter: the twist then errs by 0.8e-3, after 4438 iterations of all runs.
+/// be shorter: the twist then errs by 0.6e-3, after 4595 iterations of all runs.
 #[test]
 fn pilot_runs_share_long_steps() {
     let folder = tempfile::tempdir().unwrap();
@@ -121,7 +121,7 @@ fn pilot_runs_share_long_steps() {
     let estimate = number("/step_error/estimate");
     assert!(estimate > 0.5e-3 && estimate < 1.5e-3, "{result}");
     let others = number("/accuracy/pilot_iterations") + number("/step_error/other_iterations");
-    assert!(others + number("/counts/iterations") < 4500.0, "{result}");
+    assert!(others + number("/counts/iterations") < 4700.0, "{result}");
 }
 
 /// The pilot run with the chosen mesh tells the error of the steps, and the one with the mesh before tells that of the mesh. Comparison runs and a

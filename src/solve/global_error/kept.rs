@@ -33,11 +33,9 @@ pub struct Kept {
     pub met_events: bool,
     /// The tolerance of the steps of a pilot run.
     pub tolerance: f64,
-    /// The times of changes of the tolerance.
-    pub changes: Vec<f64>,
 }
 
-keep!(Kept: Default { displacements, rotations, velocities, times, ends, power, errors, longest, between, met_events, tolerance, changes });
+keep!(Kept: Default { displacements, rotations, velocities, times, ends, power, errors, longest, between, met_events, tolerance });
 
 impl Kept {
     /// Keeps the motion where a time of comparison is reached.
@@ -47,7 +45,6 @@ impl Kept {
         if self.displacements.capacity() == 0 {
             self.ends.reserve(USUAL_STEPS);
             self.errors.reserve(USUAL_STEPS);
-            self.changes.reserve_exact(COMPARISONS);
             self.displacements.reserve_exact(COMPARISONS * model.nodes.len().div_ceil(stride));
             self.rotations.reserve_exact(COMPARISONS * model.bodies.len());
             self.velocities.reserve_exact(COMPARISONS * model.bodies.len());
@@ -104,19 +101,21 @@ impl Kept {
         self.steps_between(from, end).apart(&other.steps_between(from, end))
     }
 
-    /// The ratio of the errors over intervals between changes of the tolerance, at most `whole`. Errors of all intervals add up and grow until the
-    /// end. Sums over the whole run count intervals with long steps, whose errors may matter less than errors of later, shorter steps, so
-    /// the least ratio from any change on counts.
+    /// The ratio of the errors over intervals between times of comparison, at most `whole`. Errors of all intervals add up and grow until the
+    /// end, so those of the first one count most. Sums over the whole run would hide that its steps are hardly shorter. They also count
+    /// intervals with long steps, whose errors may matter less than errors of later, shorter steps, so the least ratio from any time on counts.
     fn least_apart(&self, other: &Kept, whole: f64) -> f64 {
         let end = self.end();
-        let ends = self.changes.iter().copied().chain([end]).rev();
-        let begins = self.changes.iter().rev().copied().chain([self.between[0]]);
-        let (mut errors, mut least) = (0.0, whole);
-        // No step lies between a change and an end at the same time.
-        for (from, to) in begins.zip(ends).filter(|(from, to)| from < to && !self.changes.is_empty()) {
-            let apart = self.steps_between(from, to).apart(&other.steps_between(from, to));
-            errors += ((end - from).powi(2) - (end - to).powi(2)) / apart;
-            least = least.min((end - from).powi(2) / errors);
+        let begins = (1..=COMPARISONS).rev().map(|k| comparison_time(k, self.between)).chain([self.between[0]]);
+        let (mut errors, mut least, mut to) = (0.0, whole, end);
+        for from in begins.filter(|from| *from < end) {
+            let [own, theirs] = [self, other].map(|run| run.steps_between(from, to));
+            // An interval within one step joins the one before.
+            if own.count.min(theirs.count) > 0 {
+                errors += ((end - from).powi(2) - (end - to).powi(2)) / own.apart(&theirs);
+                least = least.min((end - from).powi(2) / errors);
+                to = from;
+            }
         }
         least
     }
@@ -135,7 +134,7 @@ impl Kept {
 
     /// True if most steps equal those of the other run, because something other than the tolerance limits them.
     pub fn has_steps_of(&self, other: &Kept) -> bool {
-        2 * own_steps(self, &other.ends).count < self.ends.len().saturating_sub(1)
+        2 * own_steps(self, &other.ends).count < self.steps()
     }
 
     /// True if all times of comparison were reached.
@@ -146,6 +145,11 @@ impl Kept {
     /// The time at its end.
     pub fn end(&self) -> f64 {
         self.ends.last().copied().unwrap_or_default()
+    }
+
+    /// The number of steps.
+    pub fn steps(&self) -> usize {
+        self.ends.len().saturating_sub(1)
     }
 
     /// The longest step.

@@ -8,7 +8,7 @@ use super::kept::Kept;
 use crate::control::COMPARISONS;
 use crate::tolerances::global_error::{AIM, FAR_APART, SATURATED, WITHIN};
 use crate::tolerances::look_ahead::{
-    FASTEST, FUTILE, FUTILE_EARLY, JUDGED_AT, LAST_JUDGED, LOWERED_AIM, LOWEST, MOST, NEAREST, PREDICTED_AT, WORTH,
+    FASTEST, FUTILE, FUTILE_EARLY, JUDGED_AT, LOWEST, MOST, NEAREST, PREDICTED_AT, WORTH,
 };
 use crate::tolerances::trace::TELLING;
 use base::snapshot::keep;
@@ -57,11 +57,6 @@ impl<'o> LookAhead<'o> {
         self.changed.take()
     }
 
-    /// True if the controller has not received the tolerance of later steps yet.
-    pub fn is_changed(&self) -> bool {
-        self.changed.is_some()
-    }
-
     /// The mean tolerance of the steps so far; the tolerance itself, bit for bit, where it has not changed.
     pub fn mean_tolerance(&self) -> f64 {
         let past = self.time - self.pilot.between[0];
@@ -100,7 +95,7 @@ impl<'o> LookAhead<'o> {
         // The root mean square over all times is at least this part of that so far.
         let is_lost = difference / (apart - 1.0) * past.sqrt() > WITHIN * self.asked;
         let most = if run.times < JUDGED_AT { FUTILE_EARLY } else { FUTILE };
-        let is_futile = run.times <= LAST_JUDGED && predicted > most * self.asked && rest.is_dearer(self.asked);
+        let is_futile = predicted > most * self.asked && rest.is_dearer(self.asked);
         // A comparison run will judge a run far from the pilot run.
         if self.may_end && apart < FAR_APART && (is_lost || is_futile) {
             self.predicted = Some(predicted);
@@ -155,7 +150,7 @@ impl Rest {
 
     /// The factor on the tolerance of the rest, if a smaller tolerance is needed and keeps the error within the accepted one.
     fn lowered(&self, asked: f64) -> Option<f64> {
-        let factor = ((LOWERED_AIM * asked - self.of_past) / self.of_rest).max(LOWEST);
+        let factor = ((AIM * asked - self.of_past) / self.of_rest).max(LOWEST);
         let is_needed = self.error() > asked && factor < 1.0 / WORTH;
         (is_needed && self.of_past + factor * self.of_rest <= WITHIN * asked).then_some(factor)
     }

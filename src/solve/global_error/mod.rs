@@ -89,7 +89,9 @@ impl StepError {
     /// The tolerance of a run in place of one with this estimated error. Errors that events leave show in runs far apart alone.
     pub fn in_place_of(&self, estimate: f64, meets_events: bool) -> f64 {
         let [least, most] = if meets_events { CHANGE_WITH_EVENTS } else { CHANGE };
-        self.tolerance * (AIM * self.asked / estimate).clamp(least, most)
+        let wanted = AIM * self.asked / estimate;
+        // Far from the error asked for, half the digits of an estimate are believed.
+        self.tolerance * wanted.clamp(least.min(wanted.sqrt()), most)
     }
 
     /// True if a pilot run shows that the error of a complete run is small enough, or its steps are near enough to tell how large it is. A

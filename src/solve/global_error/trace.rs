@@ -81,7 +81,6 @@ impl Observer for Trace<'_> {
             ahead.advance(frame.state.time);
             if self.kept.times > seen {
                 ahead.look(&self.kept);
-                self.kept.changes.extend(ahead.is_changed().then_some(frame.state.time));
             }
         }
         self.observer.on_step(frame)
