@@ -177,6 +177,7 @@ impl Run<'_> {
         let other = other.or(pilot.map(|pilot| (OtherRun::Pilot as TellOther, pilot)));
         match other.filter(|(_, other)| control.judged.run.is_told_by(other)) {
             Some(other) => self.judge(control, Some(other), observer),
+            None if self.is_dictated(&control.judged.run, control.pieces) => self.judge(control, None, observer),
             None => {
                 self.begin_comparison(control, observer);
                 None
@@ -260,6 +261,15 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// True if jumps and kinks of loads determine most steps of a run, so that a comparison run would have the same. A division of the intervals
+    /// between them follows once.
+    fn is_dictated(&self, run: &Kept, pieces: Pieces) -> bool {
+        let inside = self.controller.looks_inside();
+        let schedule = Schedule::of_trial(self.context.model, std::iter::empty(), inside).until(run.end());
+        // Each interval with one step has the same step in both runs, and every other one has two steps at least.
+        pieces.now == 1 && 3 * run.steps() < 4 * schedule.intervals.len()
+    }
+
     /// Judges the run that has come to its end by another one. Returns the outcome if the run is good enough, and otherwise prepares for a
     /// further run.
     fn judge(
@@ -268,13 +278,14 @@ impl Run<'_> {
         other: Option<(TellOther, Kept)>,
         observer: &mut dyn Observer,
     ) -> Option<(Outcome, Option<State>)> {
+        let is_dictated = self.is_dictated(&control.judged.run, control.pieces);
         let GlobalErrorControl { error, pieces, judged, .. } = control;
         let (run, inside) = (std::mem::take(&mut judged.run), self.controller.looks_inside());
         let next = match &other {
             Some((_, other)) => error.judge(&run, other, self.context.length),
             None => Some(error.without_comparison()),
         };
-        let dictated = other.as_ref().is_some_and(|(_, other)| run.has_steps_of(other));
+        let dictated = other.as_ref().map_or(is_dictated, |(_, other)| run.has_steps_of(other));
         // Both runs of a stage begin with the errors of earlier stages, which their difference does not contain.
         let tells = error.estimate.is_some() && !self.context.model.analysis.follows_motion();
         observer.on_other_run(other.filter(|_| tells).map(|(which, _)| which(error.apart)));
