@@ -648,7 +648,9 @@ fn a_stopped_case_without_files_goes_on() {
     let sweep = format!("keep = \"summary\"\ndeck = \"deck.toml\"\n[vary]\n\"bodies.block.mass\" = [1.0]\n{collect}");
     let folder = files(&sweep);
     let folder = folder.path();
-    let long = DECK.replace("end_time = 1.0", "end_time = 400.0").replace("[output]", "[output]\nevery = 500");
+    let long = DECK
+        .replace("end_time = 1.0", "end_time = 400.0")
+        .replace("[output]", "[output]\ncheckpoint = 0.001\nevery = 500");
     fs::write(folder.join("deck.toml"), long).unwrap();
     fs::write(folder.join("all.toml"), sweep.replace("keep = \"summary\"\n", "")).unwrap();
     assert!(rdsolve(folder, &["sweep", "all.toml", "-o", "all"]).status.success());
@@ -656,12 +658,10 @@ fn a_stopped_case_without_files_goes_on() {
     let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin("rdsolve"));
     command.current_dir(folder).args(["sweep", "s.toml", "-o", "stopped"]).stdout(Stdio::null());
     let mut process = command.stderr(Stdio::piped()).spawn().unwrap();
-    while !case.join("run.lock").exists() {
+    while !case.join("run.checkpoint").exists() {
         assert!(process.try_wait().unwrap().is_none(), "it came to its end before it was stopped");
         std::thread::sleep(Duration::from_millis(1));
     }
-    // The steps begin a millisecond later, and take a second.
-    std::thread::sleep(Duration::from_millis(200));
     std::process::Command::new("kill").args(["-TERM", &process.id().to_string()]).status().unwrap();
     assert_eq!(process.wait_with_output().unwrap().status.code(), Some(75));
     let names: Vec<_> = fs::read_dir(&case).unwrap().map(|entry| entry.unwrap().file_name()).collect();
@@ -822,6 +822,9 @@ orientation = [0.0, 1.0, 0.0]
         );
         assert!(value("foot") == value("one") && !value("one").is_empty() && value("moment").is_empty(), "{row:?}");
     }
+    fs::write(folder.join("t.toml"), format!("keep = \"summary\"\n{sweep}")).unwrap();
+    assert!(rdsolve(folder, &["sweep", "t.toml"]).status.success());
+    assert_eq!(rows(folder, "t.out/summary.csv"), found);
     // A curve takes the name of the set as well.
     let case = rows(folder, "s.out/cases.csv")[1][1].clone();
     let curve =

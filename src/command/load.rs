@@ -8,7 +8,7 @@ use model::{self, Model};
 use results::settle_cadence;
 use sha2::{Digest, Sha256};
 use solve::modes::reduce;
-use solve::plan::explain::{implausible_loads, much_mass_added, redundant_constraints};
+use solve::plan::explain::{much_mass_added, redundant_constraints};
 use solve::plan::{Plan, unreachable_targets};
 use solve::share_plane;
 use solve::system::{MassScaling, System};
@@ -235,7 +235,7 @@ fn prepare_model(model: &mut Model, threads: usize) -> Result<(System, Plan, Vec
 /// Warnings about a valid model that need its plan.
 fn plan_warnings(plan: &Plan, model: &Model, system: &System) -> Vec<Diagnostic> {
     let redundant = redundant_constraints(plan, model, system).into_iter().map(Diagnostic::warning);
-    redundant.chain(much_mass_added(system)).chain(implausible_loads(model, system)).collect()
+    redundant.chain(much_mass_added(system)).collect()
 }
 
 /// Says that there is no memory for the matrix of the solver.

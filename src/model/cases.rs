@@ -1,6 +1,6 @@
 //! `[[load_cases]]`, `[[combinations]]` and `[[envelopes]]`.
 
-use super::data::{CaseActor, CaseTerm, Envelope, LoadCase, LoadCases};
+use super::data::{CaseActor, CaseTerm, ENVELOPE_ENDS, Envelope, LoadCase, LoadCases};
 use super::procedure::stops::NamedActors;
 use super::report::{Owner, Report};
 use super::scene::Scene;
@@ -122,6 +122,9 @@ impl<'d> Reader<'_, 'd> {
             } else if self.names.contains(&name.as_str()) {
                 let message = format!("two cases, combinations or envelopes have the name `{}`", name.value);
                 report.error_with::<()>(&name.span, message, "give one of them another name");
+            } else if ENVELOPE_ENDS.iter().any(|end| name.ends_with(end)) {
+                let message = format!("`{}` is a name of rows of an envelope", name.value);
+                report.error_with::<()>(&name.span, message, "end it other than with .max and .min");
             }
             self.names.push(name.as_str());
         }

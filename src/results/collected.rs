@@ -2,9 +2,10 @@
 
 use super::TABLES;
 use super::curve::{REACTION, REACTIONS, reaction_direction};
-use super::table::{BETWEEN_SETS, SET, STAGE, TableKind, names_subject};
+use super::table::{BETWEEN_SETS, CASE, SET, STAGE, TableKind, names_subject};
 use super::table_reader::{TableReader, fields, number, text};
 use base::snapshot::keep;
+use model::ENVELOPE_ENDS;
 use std::fmt::Write;
 use std::io;
 use std::path::Path;
@@ -97,9 +98,10 @@ pub struct RowSearch {
     /// The fields of the row under way up to the last that is looked at, and the place of the next one.
     row: Vec<Field>,
     next: usize,
-    /// The places of the time, of the step, of the keys, of the stage and of the sets.
+    /// The places of the time, of the step, of the load case, of the keys, of the stage and of the sets.
     time: usize,
     step: Option<usize>,
+    case: Option<usize>,
     keys: Vec<usize>,
     others: [Option<usize>; 2],
 }
@@ -176,12 +178,13 @@ impl RowSearch {
         let says_what = |name: &str| names_subject(name) && kind.columns().any(|one| one.is_key() && one.name == name);
         let keys: Vec<usize> = (0..header.len()).filter(|&place| says_what(header[place].as_ref())).collect();
         let others = [STAGE, SET].map(column);
-        let texts = keys.iter().chain(others.iter().flatten()).map(|&place| (place, LookedAt::Text));
+        let case = column(CASE);
+        let texts = keys.iter().chain(others.iter().flatten()).chain(&case).map(|&place| (place, LookedAt::Text));
         let numbers = searches.iter().map(|search| search.column).chain([time]).chain(column("step"));
         let all: Vec<_> = texts.chain(numbers.map(|place| (place, LookedAt::Number))).collect();
         let mut row = vec![Field::default(); all.iter().map(|(place, _)| place + 1).max().unwrap_or(0)];
         all.into_iter().for_each(|(place, looked_at)| row[place].looked_at = looked_at);
-        Some(RowSearch { searches, row, next: 0, time, step: column("step"), keys, others })
+        Some(RowSearch { searches, row, next: 0, time, step: column("step"), case, keys, others })
     }
 
     /// Takes a row of a file.
@@ -236,7 +239,8 @@ impl RowSearch {
 
     /// Looks at the whole row.
     pub fn end(&mut self) {
-        let RowSearch { searches, row, keys, others, time, step, .. } = self;
+        let RowSearch { searches, row, keys, others, time, step, case, .. } = self;
+        let of_envelope = case.is_some_and(|place| ENVELOPE_ENDS.iter().any(|end| row[place].text.ends_with(end)));
         let (time, step) = (row[*time].number, step.map_or(0.0, |place| row[place].number));
         let stage = others[0].map_or("", |place| &row[place].text);
         for search in searches {
@@ -246,6 +250,8 @@ impl RowSearch {
                 }
                 let value = row[search.column].number;
                 match search.direction {
+                    // Extremes of several nodes may be of different cases: their sum is no reaction.
+                    Some(_) if of_envelope => {}
                     Some(_) => search.add((stage, step, time), value),
                     None => search.see(time, value),
                 }

@@ -1,8 +1,9 @@
 //! A column of one table over a column of another, as force over displacement.
 
 use super::disk::at;
-use super::table::{BETWEEN_SETS, SET, names_subject};
+use super::table::{BETWEEN_SETS, CASE, SET, names_subject};
 use super::table_reader::{TableReader, fields, number, text};
+use model::ENVELOPE_ENDS;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::io;
@@ -100,6 +101,8 @@ impl CurveAxis {
         let [step_at, set_at] = ["step", SET].map(|name| rows.column(name));
         let width = rows.header.len();
         let keys: Vec<usize> = (0..width).filter(|&key| rows.is_key(key) && names_subject(&rows.header[key])).collect();
+        // The load case stands before the subject.
+        let first = keys.iter().take_while(|&&key| rows.header[key] == CASE).count();
         let (mut times, mut values, mut found) = (Vec::new(), Vec::new(), 0);
         let mut before = None;
         let sign = if self.is_negative { -1.0 } else { 1.0 };
@@ -117,12 +120,15 @@ impl CurveAxis {
                 values.push(0.0);
             }
             let words: Vec<_> = keys.iter().map(|&key| text(row[key])).collect();
-            let is_meant = |first: &str| {
-                let others = words.iter().skip(1).map(Cow::as_ref);
-                matches(&self.name, &[first].into_iter().chain(others).collect::<Vec<_>>().join(" "))
+            let is_meant = |subject: &str| {
+                let all = words.iter().enumerate().map(|(k, word)| if k == first { subject } else { word.as_ref() });
+                matches(&self.name, &all.collect::<Vec<_>>().join(" "))
             };
-            let names = set_at.map(|set| text(row[set])).unwrap_or_default();
-            let own = words.first().map_or("", Cow::as_ref);
+            // Extremes of several nodes have no sum: they may be of different cases.
+            let of_envelope =
+                keys[..first].iter().any(|&key| ENVELOPE_ENDS.iter().any(|end| text(row[key]).ends_with(end)));
+            let names = set_at.filter(|_| !of_envelope).map(|set| text(row[set])).unwrap_or_default();
+            let own = words.get(first).map_or("", Cow::as_ref);
             if is_meant(own) || names.split(BETWEEN_SETS).filter(|set| !set.is_empty()).any(is_meant) {
                 found += 1;
                 if let Some(sum) = values.last_mut() {

@@ -2,7 +2,7 @@
 
 use super::table::WriteRow;
 use super::table_file::TableFile;
-use model::Model;
+use model::{ENVELOPE_ENDS, Model};
 use std::io;
 
 /// A field of a row.
@@ -118,8 +118,8 @@ impl Envelopes {
         let mut step = last;
         for Envelope { name, tables, .. } in &self.0 {
             let Some(Some(extremes)) = tables.get(table) else { continue };
-            for (rows, end) in extremes.iter().zip(["max", "min"]) {
-                file.begin_case(&format!("{name}.{end}"));
+            for (rows, end) in extremes.iter().zip(ENVELOPE_ENDS) {
+                file.begin_case(&format!("{name}{end}"));
                 step += 1;
                 for row in &rows.list {
                     file.row(step, rows.time);

@@ -244,10 +244,16 @@ pub(super) fn is_given_up(holder: &Holder, this: &Holder, file: &File, dir: &Pat
     matches!((now, renewed), (Ok(now), Ok(renewed)) if apart(now, renewed) > GIVEN_UP)
 }
 
+impl FolderLock {
+    /// True unless another process has taken the folder over, or removed it and made it anew.
+    pub fn is_held(&self) -> bool {
+        fs::read_to_string(&self.path).is_ok_and(|text| text == self.held.text)
+    }
+}
+
 impl Drop for FolderLock {
     fn drop(&mut self) {
-        // Only the lock of this process is removed: a folder that was removed and made anew may have another.
-        if fs::read_to_string(&self.path).is_ok_and(|text| text == self.held.text) {
+        if self.is_held() {
             let _ = fs::remove_file(&self.path);
         }
     }

@@ -13,7 +13,7 @@ pub const STAGE: &str = "stage";
 /// The name of the column behind these that tables of a deck with load cases have.
 pub const CASE: &str = "case";
 
-/// The name of the column of nodes.csv with the names of sets.
+/// The name of the column with the names of the sets of a node.
 pub const SET: &str = "set";
 
 pub use model::BETWEEN_SETS;

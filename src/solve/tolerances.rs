@@ -654,10 +654,6 @@ pub mod row_gaps {
 pub mod explained_quantities {
     /// A sum of loads, or a coordinate of the center of mass, below this part of the largest is rounding: sums of thousands of terms keep 12 digits.
     pub const ROUNDING: f64 = 1e-9;
-    /// Loads below this part of the weight change nothing beside it. Forces of kN given in N have a thousandth of their size.
-    pub const NO_LOAD: f64 = 1e-3;
-    /// A force of this many yield forces of the beams at its node collapses them; with N for kN a tenth of one gives a hundred.
-    pub const BEYOND_YIELD: f64 = 10.0;
 }
 
 pub mod explained_mass_scaling {

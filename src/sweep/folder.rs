@@ -69,12 +69,14 @@ impl SweepFolder {
         }
     }
 
-    /// Records those of these cases whose folders are not kept, and removes the folders; returns the other cases.
+    /// Records those of these cases whose folders are not kept, and removes the folders; returns the other cases. A case that another
+    /// process has taken over is left to it.
     ///
     /// # Errors
     /// A table cannot be read, a record cannot be written, or a folder cannot be removed; the error names it.
     pub fn let_go(&self, cases: Vec<Computed>) -> io::Result<Vec<Computed>> {
-        let (stay, go): (Vec<_>, Vec<_>) = cases.into_iter().partition(|case| self.keep.keeps(&case.outcome.state));
+        let (stay, mut go): (Vec<_>, Vec<_>) = cases.into_iter().partition(|case| self.keep.keeps(&case.outcome.state));
+        go.retain(|case| case.lock.is_held());
         let mut records = Vec::new();
         for Computed { folder, outcome, numbers, .. } in &go {
             let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();

@@ -55,7 +55,7 @@ pub use model::{MeshFile, Model, Origin, RecordFile, Rigid, SectionFacts};
 pub use modes::{ModeExtent, ModesAsked};
 pub use moving_frame::{MovingFrame, MovingFrames};
 pub use node::{Body, DIRECTIONS, Mass, Node};
-pub use output::{BETWEEN_SETS, Cadence, Drift, FieldFiles, FieldFormat, Output, round_up};
+pub use output::{BETWEEN_SETS, Cadence, Drift, ENVELOPE_ENDS, FieldFiles, FieldFormat, Output, round_up};
 pub use part::{Part, PartType, quantities_of};
 pub use part_answers::{Drawing, LineElement, LinearSpring, NodalAction, NodeWeights};
 pub use reduction::{EQUAL_MODES, ReducedPart, Reduction};

@@ -6,6 +6,9 @@ use deck::output::{ContactRows, SectionPlaces};
 /// What stands between the names of the sets of a node.
 pub const BETWEEN_SETS: &str = "|";
 
+/// The ends of the names of the rows of an envelope: of the greatest and of the least values.
+pub const ENVELOPE_ENDS: [&str; 2] = [".max", ".min"];
+
 /// The tables and fields that the run writes.
 #[derive(Debug, Clone)]
 pub struct Output {

@@ -31,8 +31,11 @@ pub fn check_upward(deck: &Deck, report: &mut Report) {
     }
 }
 
-/// True for a load that acts with its sign for the whole run.
+/// True for a load that acts with its sign for the whole run. A load of load cases has the signs of their factors.
 fn stays(deck: &Deck, load: &Load) -> bool {
+    if load.stages.is_some() || !deck.load_cases.is_empty() {
+        return false;
+    }
     let Some(name) = &load.amplitude else { return true };
     let kind = deck.amplitudes.position(name).and_then(|place| deck.amplitudes.0[place].1.kind.as_ref());
     kind.is_some_and(|kind| matches!(kind.value, AmplitudeKind::Constant | AmplitudeKind::Ramp))

@@ -7,7 +7,6 @@ mod contacts;
 mod damping;
 mod explanation;
 mod links;
-mod load_sizes;
 mod mass_scaling;
 mod omitted;
 mod quantities;
@@ -19,7 +18,6 @@ mod solution;
 mod threads;
 
 pub use explanation::Explanation;
-pub use load_sizes::implausible_loads;
 pub use mass_scaling::{mass_added, much_mass_added};
 pub use redundant::redundant_constraints;
 

@@ -9,7 +9,7 @@ use base::names::{short, to_digits};
 use base::quantities::{Unit, UnitSystem};
 use mechanics::amplitude::Amplitude;
 use mechanics::state::Node;
-use model::{self, DIRECTIONS, History, Load, Model, Pressure};
+use model::{self, DIRECTIONS, History, Load, Model};
 
 /// Times at which loads and motions are looked at, besides the points of tables.
 const SAMPLES: usize = 1000;
@@ -19,10 +19,12 @@ const LISTED: usize = 6;
 /// Adds lines about the mass, the applied loads and the given motions.
 pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
     let units = model.output.units.as_deref().and_then(UnitSystem::find);
-    text.computed.extend(mass(model, system, units).map(|line| ("mass", line)));
+    let inertia = mass_and_center(system, &model.nodes);
+    text.computed.extend(inertia.map(|of| ("mass", mass(model, of, units))));
+    let weight = inertia.map_or(0.0, |(mass, _)| mass * model.loading.gravity.norm());
     let excitation = Excitation::new(model);
     let times = times(model);
-    text.computed.extend(loads(model, &excitation, &times, units).map(|line| ("loads", line)));
+    text.computed.extend(loads(model, weight, (&excitation, &times), units).map(|line| ("loads", line)));
     let turning = centrifugal(model, system, (&excitation, &times), units);
     text.computed.extend(turning.into_iter().map(|line| ("centrifugal", line)));
     let motions = motions(model, &excitation, &times, units);
@@ -39,8 +41,7 @@ pub fn symbol(unit: Unit, units: Option<&UnitSystem>) -> String {
 }
 
 /// "8.1 kg with its center at (0, 0, 1.5) m; weight 79.5 N under gravity 9.81 m/s² along -z".
-fn mass(model: &Model, system: &System, units: Option<&UnitSystem>) -> Option<String> {
-    let (mass, center) = mass_and_center(system, &model.nodes)?;
+fn mass(model: &Model, (mass, center): (f64, Vec3), units: Option<&UnitSystem>) -> String {
     let size = model.nodes.iter().map(|node| node.x.amax()).fold(0.0, f64::max);
     let at: Vec<String> = center.iter().map(|x| short(if x.abs() < ROUNDING * size { 0.0 } else { *x })).collect();
     let [of_mass, of_length] = [Unit::Mass, Unit::Length].map(|unit| symbol(unit, units));
@@ -54,7 +55,7 @@ fn mass(model: &Model, system: &System, units: Option<&UnitSystem>) -> Option<St
     } else {
         line += "; no gravity";
     }
-    Some(line)
+    line
 }
 
 /// A direction by its axis, "-z", or by its components.
@@ -67,7 +68,7 @@ fn along(direction: &Vec3) -> String {
 }
 
 /// The times of the run at which loads and motions are looked at, ascending. Modes have one.
-pub fn times(model: &Model) -> Vec<f64> {
+fn times(model: &Model) -> Vec<f64> {
     let (begin, end) = (model.analysis.begin, model.analysis.end_time);
     if model.analysis.has_modes() {
         return vec![end];
@@ -80,9 +81,14 @@ pub fn times(model: &Model) -> Vec<f64> {
     times
 }
 
-/// The sums of forces and moments on nodes and of pressures on faces, by direction: "Fx 0 to 1200, Fz -300". Weight, motors and pretension are not
-/// among them.
-fn loads(model: &Model, excitation: &Excitation, times: &[f64], units: Option<&UnitSystem>) -> Option<String> {
+/// The sums of forces and moments on nodes and of pressures on faces, by direction: "Fx 0 to 1200, Fz -300; the largest is 4 % of the
+/// weight". Weight, motors and pretension are not among them.
+fn loads(
+    model: &Model,
+    weight: f64,
+    (excitation, times): (&Excitation, &[f64]),
+    units: Option<&UnitSystem>,
+) -> Option<String> {
     let mut sums: Vec<(Option<usize>, [f64; 6])> = Vec::new();
     let mut add = |amplitude: Option<usize>, force: Vec3, moment: Vec3| {
         let place = sums.iter().position(|(of, _)| *of == amplitude).unwrap_or_else(|| {
@@ -92,12 +98,15 @@ fn loads(model: &Model, excitation: &Excitation, times: &[f64], units: Option<&U
         (0..3).for_each(|i| sums[place].1[i] += force[i]);
         (0..3).for_each(|i| sums[place].1[3 + i] += moment[i]);
     };
-    for load in model.loading.nodal.iter().filter(|load| acts(model, load)) {
+    // The pretension of a link acts on a number, its shortening, and not in a direction.
+    let acts = |load: &&Load| load.coordinate().is_none() && !model.nodes[load.node].is_number;
+    for load in model.loading.nodal.iter().filter(acts) {
         let moment = if load.moment_counts { load.moment } else { Vec3::zeros() };
         add(load.amplitude, load.force, moment);
     }
     for load in &model.loading.pressures {
-        add(load.amplitude, pressing(model, load), Vec3::zeros());
+        let areas = load.faces.iter().flat_map(|face| face.areas(|node| model.nodes[node].x));
+        add(load.amplitude, areas.sum::<Vec3>() * -load.pressure, Vec3::zeros());
     }
     if sums.is_empty() {
         return None;
@@ -126,26 +135,13 @@ fn loads(model: &Model, excitation: &Excitation, times: &[f64], units: Option<&U
         is_seen.then(|| format!("{} {}{}", words[i], range(*least, *most, size), symbols[i / 3]))
     });
     let line: Vec<String> = line.collect();
-    Some(if line.is_empty() { "sum to zero".to_owned() } else { line.join(", ") })
-}
-
-/// True for a force in a direction: the pretension of a link acts on a number, its shortening.
-pub fn acts(model: &Model, load: &Load) -> bool {
-    load.coordinate().is_none() && !model.nodes[load.node].is_number
-}
-
-/// The resultant of a pressure at t = 0.
-fn pressing(model: &Model, load: &Pressure) -> Vec3 {
-    let areas = load.faces.iter().flat_map(|face| face.areas(|node| model.nodes[node].x));
-    areas.sum::<Vec3>() * -load.pressure
-}
-
-/// The sum of the magnitudes of all forces and pressures, each times the `largest` value of its amplitude.
-pub fn acting_force(model: &Model, largest: &impl Fn(Option<usize>) -> f64) -> f64 {
-    let nodal = model.loading.nodal.iter().filter(|load| acts(model, load));
-    let forces = nodal.map(|load| load.force.norm() * largest(load.amplitude));
-    let pressures = model.loading.pressures.iter();
-    forces.chain(pressures.map(|load| pressing(model, load).norm() * largest(load.amplitude))).sum()
+    if line.is_empty() {
+        return Some("sum to zero".to_owned());
+    }
+    // Forces of kN given in N, or the other way round, show beside the weight.
+    let beside = (weight > 0.0 && sizes[0] > 0.0)
+        .then(|| format!("; the largest force is {} times the weight", to_digits(sizes[0] / weight, 2)));
+    Some(line.join(", ") + &beside.unwrap_or_default())
 }
 
 /// "mass 12 kg about (0, 0, 1) at a speed up to 100 rad/s; its forces at t = 0 sum to (0, 1200, 0) N", a line for each centrifugal load.
