@@ -221,11 +221,11 @@ impl Sweep<'_> {
                 if self.stop.load(Ordering::Relaxed) {
                     return Ok(());
                 }
-                match self.run_one(case, &pool)?.map(|computed| done.send(computed)) {
-                    // Whoever marks has failed, and says so.
-                    Some(Err(_)) => return Ok(()),
-                    Some(Ok(())) | None => bar.inc(1),
+                // Whoever marks has failed, and says so.
+                if self.run_one(case, &pool)?.is_some_and(|computed| done.send(computed).is_err()) {
+                    return Ok(());
                 }
+                bar.inc(1);
             }
             Ok(())
         };

@@ -16,8 +16,11 @@ mod step;
 
 use source::Source;
 
+/// Checks the source; a panic says what breaks the rule.
+type Check = fn(&Source);
+
 /// What is held of the source as a compiler sees it.
-const RULES: [(&str, fn(&Source)); 10] = [
+const RULES: [(&str, Check); 10] = [
     ("files of a room import in one direction", circles::files_of_a_room_import_in_one_direction),
     ("parts are known to few", kinds::parts_are_known_to_few),
     ("kinds are listed once", kinds::kinds_are_listed_once),
@@ -34,7 +37,7 @@ const RULES: [(&str, fn(&Source)); 10] = [
 #[test]
 fn the_source_keeps_its_rules() {
     let source = Source::read();
-    let breaks = |rule: fn(&Source)| std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| rule(&source))).is_err();
+    let breaks = |rule: Check| std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| rule(&source))).is_err();
     let broken: Vec<&str> = RULES.iter().filter(|(_, rule)| breaks(*rule)).map(|(name, _)| *name).collect();
     assert!(broken.is_empty(), "broken rules: {}", broken.join("; "));
 }
