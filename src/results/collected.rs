@@ -1,4 +1,4 @@
-//! The numbers that a sweep collects. One search takes the rows of a table as a run makes them, or as its file has them.
+//! The numbers that a sweep collects. One search reads the rows of a table as a run makes them, or as its file has them.
 
 use super::TABLES;
 use super::curve::{REACTION, REACTIONS, reaction_direction};
@@ -114,7 +114,7 @@ struct Field {
     number: f64,
 }
 
-/// What is looked at in a field.
+/// The part of a field that a search needs.
 #[derive(Clone, Copy, Default, PartialEq)]
 enum LookedAt {
     #[default]
@@ -281,7 +281,7 @@ impl FoundSoFar {
 }
 
 impl Search {
-    /// The number as far as it is found. There is none for one time of several subjects, unless it is a force, and none for moments about
+    /// The number of the rows so far. There is none for one time of several subjects, unless it is a force, and none for moments about
     /// several points: they have no sum.
     fn number(&self) -> Option<f64> {
         let is_extreme = !matches!(self.wanted.when, CollectedWhen::End | CollectedWhen::Time(_));

@@ -1,6 +1,6 @@
 //! A table that grows by whole rows, without allocating: a comma separated file, or a search that keeps the collected numbers alone.
 //!
-//! Rows collect in memory, and one call writes all of them: a call for each page takes longer than formatting the numbers. If the file
+//! Rows collect in memory, and one call writes all of them: a call for each page costs more time than the format of the numbers. If the file
 //! cannot grow, it is cut back to its last whole row. A run that is killed during the call may tear a row, which readers omit. The csv crate
 //! is for readers: its writer hands over whatever fills its buffer.
 

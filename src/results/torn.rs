@@ -13,7 +13,7 @@ use std::path::Path;
 /// A table cannot be read; the error names it.
 pub fn torn_tables(folder: &Path) -> io::Result<Vec<String>> {
     let mut torn = Vec::new();
-    // A sweep asks for thousands of folders: they are listed, where asking for each table would take two dozen calls.
+    // A sweep has thousands of folders. Each is listed by one call, where two dozen calls would ask for its tables.
     for name in entries(folder)?.into_iter().filter(|name| of_file(name).is_some()) {
         let path = folder.join(&name);
         if ends_within_a_row(&path).map_err(|fault| at(&path, fault))? {

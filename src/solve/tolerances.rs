@@ -527,7 +527,7 @@ pub mod global_error {
     /// erred by a tenth of the request, and took two to three times the iterations. Estimates of ten times the request and more lower the least ratio to the
     /// root of the one wanted: a hub with blades then keeps 1e-4, with 0.73 of it in place of 2.4.
     pub const CHANGE: [f64; 2] = [0.25, 0.5];
-    /// The same after a run that has ended early. What is too strict, later parts of the next run make up for. With a least ratio of 0.1 a hub with blades
+    /// Least and largest ratio of the tolerances after a run that has ended early. Later parts of the next run make up for one that is too strict. With a least ratio of 0.1 a hub with blades
     /// needs a fifth more iterations at 1e-3, and four other scenes differ by 1 % at most.
     pub const CHANGE_EARLY: [f64; 2] = [0.03, 0.5];
     /// Least and largest ratio for runs with events.

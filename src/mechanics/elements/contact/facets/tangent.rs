@@ -154,7 +154,7 @@ fn gradients(facet: &Facet, at: &FacetPoint, p: &[Vec3; 4]) -> ([Vec3; 3], Mat3)
 
 /// Largest and least step of the differences of friction, as parts of the pair's size: rounding errs by 1e-9 with the first, by 1e-5 with the second.
 const STEPS: [f64; 2] = [1e-6, 1e-10];
-/// Step of these differences as a part of the stretch, or the depth, at which the force has its next kink.
+/// Step of these differences as a part of the way to the next kink of the force: a stretch, or a depth.
 const BEFORE_KINK: f64 = 0.01;
 
 /// Friction by central differences of its forces, each motion together with its rate. A stiff contact slips after nanometres, and steps beyond would
