@@ -272,8 +272,7 @@ fn model<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, files: Files<'d>, 
     let linked = links.list.iter().map(|link| link.ends).chain(contacts.iter().flat_map(|contact| contact.pairs()));
     check_sound(&scene, &amplitudes, &topology, Ties::new(&topology, &joints, linked), report);
     place_nodes(&scene.names, &scene.parts, &mut topology);
-    let writes = asked.selection.output.reactions;
-    let sets = if writes { supported_sets(&scene, &topology.list) } else { HashMap::new() };
+    let sets = supported_sets(&asked.selection, &scene, &topology.list);
     let targets = std::mem::take(&mut topology.targets);
     let (nodes, dependents, restraints) = topology.into_parts();
     let mut analysis = Analysis { stage: asked.stage, ..scene.analysis };

@@ -166,8 +166,11 @@ fn names_of<'n>(scene: &Scene, names: impl Iterator<Item = &'n At<String>>) -> B
     covered
 }
 
-/// The sets, groups and parts that supports of any stage name, by the labels of their nodes.
-pub(super) fn supported_sets(scene: &Scene, nodes: &[Node]) -> HashMap<String, String> {
+/// The sets, groups and parts that supports of any stage name, by the labels of their nodes; none without a table of reactions.
+pub(super) fn supported_sets(asked: &Selection, scene: &Scene, nodes: &[Node]) -> HashMap<String, String> {
+    if !asked.output.reactions {
+        return HashMap::new();
+    }
     let deck = scene.stage.map_or(scene.deck, |stage| stage.sequence.whole);
     let names = deck.supports.iter().flat_map(|support| &support.at).flat_map(|at| &at.values);
     let of_several = names.filter(|name| !matches!(scene.names.place(name), Some(Place::Point(_) | Place::Body(_))));

@@ -10,10 +10,10 @@ const BUDGET: [(&str, usize); 11] = [
     ("deck", 5480),
     ("import", 11_530),
     ("model", 29_260),
-    ("solve", 36_650),
-    ("results", 12_085),
+    ("solve", 36_520),
+    ("results", 12_105),
     ("study", 4280),
-    ("sweep", 1520),
+    ("sweep", 1525),
     ("program", 6785),
 ];
 

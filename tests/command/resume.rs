@@ -49,14 +49,7 @@ fn every_deck_goes_on_as_if_it_had_never_stopped() {
     let mut checkpoints = 0;
     // The test of the values runs the same decks from the first on: both meet in the middle and share the runs.
     for name in deck_names().iter().rev().filter(|name| name.contains(&only)) {
-        // A million turns are as many times the same.
-        let shorter: &[String] =
-            if name == "extreme/million_turns" { &["analysis.end_time=1e5".into(), "expect=[]".into()] } else { &[] };
-        let model = read(name, shorter);
-        checkpoints += match shorter {
-            [] => resume(name, &model, &whole(name)),
-            _ => resume(name, &model, &watch(&model, Watch::Whole)),
-        };
+        checkpoints += resume(name, &read(name, &[]), &whole(name));
     }
     println!("{checkpoints} checkpoints");
 }
