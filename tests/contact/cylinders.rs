@@ -66,7 +66,8 @@ fn the_depth_is_that_of_the_solid_in_common() {
     let mut rng = StdRng::seed_from_u64(4);
     for k in 0..8 {
         let of_other = Vec3::from_fn(|_, _| rng.random_range(0.2..0.6));
-        let (one, other) = (cylinder(0.3, rng.random_range(0.1..0.5)), cuboid(of_other));
+        let length = rng.random_range(0.1..0.5);
+        let (one, other) = (cylinder(0.3, length), cuboid(of_other));
         let Q = matrix(&exp(&vector(&mut rng, 2.0)));
         let way = vector(&mut rng, 1.0).normalize();
         let mut pose = ConvexPose { y: 0.9 * way, Q, own: &one, other: &other };
@@ -74,8 +75,11 @@ fn the_depth_is_that_of_the_solid_in_common() {
             pose.y -= 0.01 * way;
         }
         let (mut count, mut first, mut second) = (0.0, Vec3::zeros(), Mat3::zeros());
-        for _ in 0..2_000_000 {
-            let x = of_other.component_mul(&vector(&mut rng, 1.0));
+        // Points are drawn where the box meets a box about the cylinder.
+        let reach = Vec3::repeat(0.3f64.hypot(length));
+        let (low, high) = ((pose.y - reach).sup(&-of_other), (pose.y + reach).inf(&of_other));
+        for _ in 0..300_000 {
+            let x = (low + high) / 2.0 + ((high - low) / 2.0).component_mul(&vector(&mut rng, 1.0));
             if one.distance_from_core(&Q.tr_mul(&(x - pose.y))).0 <= 0.0 {
                 count += 1.0;
                 first += x;
@@ -86,7 +90,8 @@ fn the_depth_is_that_of_the_solid_in_common() {
         let S = second / count - mean * mean.transpose();
         let expected = (12.0 / S.try_inverse().expect("a solid").trace()).sqrt();
         let found = depth(&pose, 0.0).expect("they overlap");
-        // Some ten thousand points fall inside: variances are known to a hundredth.
+        // More than ten thousand points fall inside: variances are known to a hundredth.
+        assert!(count > 1e4, "{k}: {count} points");
         assert!((found.D / expected - 1.0).abs() < 0.015, "{k}: {} for {expected}, {count} points", found.D);
         assert!((found.c - mean).norm() < 5e-3, "{k}: {} for {mean}", found.c);
     }
@@ -173,7 +178,7 @@ fn it_swings_on_its_springs() {
 #[test]
 fn impacts_keep_energy_and_momentum() {
     let mut rng = StdRng::seed_from_u64(9);
-    for k in 0..45 {
+    for k in 0..15 {
         let other = match k % 3 {
             0 => "kind = \"box\", size = [0.5, 0.6, 0.3]",
             1 => "kind = \"cylinder\", radius = 0.3, length = 0.4, axis = [0.2, 0.1, 1.0]",
