@@ -75,7 +75,7 @@ pub fn found<'s>(tables: impl Iterator<Item = &'s RowSearch>, count: usize) -> V
     found
 }
 
-/// The numbers that a table may have, each with its place in the list, and the order in which tables are asked for it.
+/// The numbers that a table may have. Each comes with its place in the list and with the rank of the table: the lowest rank gives the number.
 fn asked_of<'w>(kind: &TableKind, wanted: &'w [Collected]) -> impl Iterator<Item = (usize, usize, &'w Collected)> {
     let about_all = !kind.columns().any(|column| column.is_key());
     let values: Vec<&str> = kind.columns().filter(|column| !column.is_key()).map(|column| column.name).collect();

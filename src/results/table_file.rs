@@ -110,7 +110,7 @@ impl TableFile {
         Ok(TableFile { written, rows, stage, before_stage, empty, ..TableFile::of(path, Target::File(file)) })
     }
 
-    /// A table without file, of which a search takes the rows; it goes on where the mark was made.
+    /// A table without a file: its rows go to a search, from the place of the mark on.
     pub fn searched(search: RowSearch, mark: TableMark) -> TableFile {
         let TableMark { file: name, stage, found, found_before, empty, .. } = mark;
         let mut search = Box::new(search);

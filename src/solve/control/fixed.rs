@@ -222,7 +222,7 @@ impl Substeps {
         AcceptedStep { dt, report, cuts: self.cuts, due: false, compared: false, last: false, passed: &[] }
     }
 
-    /// The outcome of a run that ends in this step: a stopped one gets the failure that the substep under way was cut for.
+    /// The outcome of a run that ends in this step. A stopped run names the failure behind the last cutback.
     fn stopped_in(&self, outcome: Outcome) -> Outcome {
         match outcome {
             Outcome::Stopped { time, .. } => {

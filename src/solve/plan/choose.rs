@@ -3,8 +3,8 @@
 use linear::{Factorization, Structure};
 use model::Gyroscopic;
 
-/// The factorization for this structure: LU where the deck wants gyroscopic terms in the matrix, else the cheaper one. Load steps in which
-/// contacts slip do not converge without the unsymmetric part of friction, for no inertia holds what slips.
+/// The factorization for this structure: LU where the deck wants gyroscopic terms in the matrix, else the cheaper one. Load steps
+/// with slipping contacts need the unsymmetric part of friction to converge: no inertia restrains a slipping part.
 pub fn kind(structure: &Structure, gyroscopic: Gyroscopic, slips_in_load_steps: bool) -> Factorization {
     match gyroscopic {
         Gyroscopic::Left => Factorization::BlockLu,

@@ -81,8 +81,8 @@ fn times(model: &Model) -> Vec<f64> {
     times
 }
 
-/// The sums of forces and moments on nodes and of pressures on faces, by direction: "Fx 0 to 1200, Fz -300; the largest is 4 % of the
-/// weight". Weight, motors and pretension are not among them.
+/// The sums of forces and moments on nodes and of pressures on faces, by direction. Weight, motors and pretension are not among them.
+/// "Fx 0 to 1200, Fz -300; the largest force is 4 times the weight".
 fn loads(
     model: &Model,
     weight: f64,
