@@ -3,9 +3,10 @@
 use super::console::{complain, print, say};
 use super::exit::Exit;
 use base::names::to_digits;
+use base::row_text::shortest;
 use clap::{Args, ValueEnum};
 use results::compare::Selector;
-use results::curve::{Curve, CurveAxis};
+use results::curve::{Curve, CurveAxis, CurveMarks};
 use results::low_pass::{LowPass, TimeSampling};
 use results::summary::{ColumnSummary, Extremum, Filter, ResultSummary};
 use results::torn_tables;
@@ -37,6 +38,9 @@ pub struct SummaryArgs {
     /// Columns to show: `ux` in any table, `nodes.csv`, or `nodes.csv:ux`
     #[arg(long, num_args = 1..)]
     only: Vec<Selector>,
+    /// One stage alone
+    #[arg(long)]
+    stage: Option<String>,
     /// A column over another: x, then y, each FILE:NAME:COLUMN
     #[arg(long, num_args = 2, value_names = ["X", "Y"], allow_hyphen_values = true, conflicts_with = "only")]
     curve: Vec<CurveAxis>,
@@ -79,6 +83,13 @@ pub fn summary(args: &SummaryArgs) -> Result<(), Exit> {
     }
     if let [x, y] = &args.curve[..] {
         let mut curve = Curve::read(&args.dir, [x, y]).map_err(unreadable)?;
+        if let Some(stage) = &args.stage {
+            curve = curve.in_stage(stage);
+            if curve.time.is_empty() {
+                complain(&format!("no row is of a stage `{stage}`"));
+                return Err(Exit::InputOutput);
+            }
+        }
         if let Some(filter) = filter {
             smoothen(&mut curve, &filter).map_err(|why| {
                 complain(&why);
@@ -87,7 +98,8 @@ pub fn summary(args: &SummaryArgs) -> Result<(), Exit> {
         }
         return print_curve(&curve, [x, y], args.format);
     }
-    let summary = ResultSummary::of(&args.dir, filter.as_ref(), &args.only).map_err(unreadable)?;
+    let summary =
+        ResultSummary::of(&args.dir, filter.as_ref(), (&args.only, args.stage.as_deref())).map_err(unreadable)?;
     match args.format {
         Format::Text => print(&text(&summary, args.filter.as_ref())),
         Format::Csv => print(&csv(&summary)),
@@ -116,9 +128,14 @@ fn print_curve(curve: &Curve, [x, y]: [&CurveAxis; 2], format: Format) -> Result
     match format {
         Format::Text => print(&curve_text(curve, [x, y])),
         Format::Csv => {
-            let rows = curve.time.iter().zip(&curve.x).zip(&curve.y);
-            let rows: String = rows.map(|((time, x), y)| format!("{time},{x},{y}\n")).collect();
-            print(&format!("time,{},{}\n{rows}", quoted(&x.word), quoted(&y.word)))
+            let head = if curve.stage.is_empty() { "" } else { "stage," };
+            let row = |k: usize| {
+                let stage = curve.stage.get(k).map_or(String::new(), |stage| quoted(stage) + ",");
+                let [time, x, y] = [curve.time[k], curve.x[k], curve.y[k]].map(shortest);
+                format!("{stage}{time},{x},{y}\n")
+            };
+            let rows: String = (0..curve.time.len()).map(row).collect();
+            print(&format!("{head}time,{},{}\n{rows}", quoted(&x.word), quoted(&y.word)))
         }
         Format::Json => {
             let json = serde_json::to_string_pretty(curve).map_err(|_| Exit::Internal)?;
@@ -127,22 +144,22 @@ fn print_curve(curve: &Curve, [x, y]: [&CurveAxis; 2], format: Format) -> Result
     }
 }
 
-/// The peaks of a curve, the slope of its first step, and the work along it.
+/// The peaks of a curve, the slope of its first step, and the work along it, for each stage.
 fn curve_text(curve: &Curve, [x, y]: [&CurveAxis; 2]) -> String {
     let digits = |value: f64| to_digits(value, DIGITS);
     let point = |k: usize| format!("{} at {} (t = {})", digits(curve.y[k]), digits(curve.x[k]), digits(curve.time[k]));
-    let by = |a: &usize, b: &usize| curve.y[*a].total_cmp(&curve.y[*b]);
-    let all = || 0..curve.time.len();
     let mut lines = vec![format!("{} over {}: {} points", y.word, x.word, curve.time.len())];
-    if let (Some(least), Some(most)) = (all().min_by(by), all().max_by(by)) {
+    for marks in curve.marks() {
+        let CurveMarks { stage, extremes: [most, least, last], first_slope, work } = marks;
+        if !stage.is_empty() {
+            lines.push(format!("  stage {stage}"));
+        }
         lines.push(format!("  largest {}", point(most)));
         lines.push(format!("  least {}", point(least)));
-        lines.push(format!("  at the end {}", point(curve.time.len() - 1)));
+        lines.push(format!("  at the end {}", point(last)));
+        lines.extend(first_slope.map(|slope| format!("  first slope {}", digits(slope))));
+        lines.push(format!("  work along the curve {}", digits(work)));
     }
-    if let Some(k) = all().skip(1).find(|&k| curve.x[k] != curve.x[0]) {
-        lines.push(format!("  first slope {}", digits((curve.y[k] - curve.y[0]) / (curve.x[k] - curve.x[0]))));
-    }
-    lines.push(format!("  work along the curve {}", digits(curve.work())));
     lines.push(String::new());
     lines.join("\n")
 }
@@ -179,7 +196,9 @@ fn text(summary: &ResultSummary, filter: Option<&LowPass>) -> String {
 }
 
 fn csv(summary: &ResultSummary) -> String {
-    let cells = |extremum: &Extremum| format!("{},{},{}", extremum.value, extremum.time, quoted(&extremum.at));
+    let cells = |extremum: &Extremum| {
+        format!("{},{},{}", shortest(extremum.value), shortest(extremum.time), quoted(&extremum.at))
+    };
     let row = |column: &ColumnSummary| {
         let [least, largest, end] = [&column.least, &column.largest, &column.end].map(cells);
         format!("{},{},{least},{largest},{end}\n", column.table, column.column)

@@ -1,14 +1,18 @@
 //! A column of one table over a column of another, as force over displacement.
 
 use super::disk::at;
-use super::table::{BETWEEN_SETS, CASE, SET, names_subject};
+use super::table::{BETWEEN_SETS, CASE, SET, STAGE, names_subject};
 use super::table_reader::{TableReader, fields, number, text};
 use model::ENVELOPE_ENDS;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::io;
+use std::ops::Range;
 use std::path::Path;
 use std::str::FromStr;
+
+/// Changes of x below this part of its largest value are rounding, as of a node beside which all loads balance.
+const ROUNDING: f64 = 1e-9;
 
 /// A column of the rows of some names, summed: `nodes.csv:tip:ux`; with `-` in front its negative. Reactions have a component as column,
 /// such as `reactions.csv:*:fx`.
@@ -58,14 +62,33 @@ impl FromStr for CurveAxis {
 }
 
 /// A curve over the rows of the tables.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Curve {
+    /// The stages; empty in a deck without stages.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub stage: Vec<String>,
     /// The times.
     pub time: Vec<f64>,
     /// The values of the first axis.
     pub x: Vec<f64>,
     /// The values of the second axis.
     pub y: Vec<f64>,
+    /// The largest value of the first axis over all stages.
+    #[serde(skip)]
+    scale: f64,
+}
+
+/// The marks of a curve in one stage.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurveMarks {
+    /// The stage; empty in a deck without stages.
+    pub stage: String,
+    /// The places of the points with the largest and the least y, and of the last point.
+    pub extremes: [usize; 3],
+    /// dy/dx of the first step with a change of x; `None` without any.
+    pub first_slope: Option<f64>,
+    /// ∫ y dx by trapezoids.
+    pub work: f64,
 }
 
 impl Curve {
@@ -74,36 +97,81 @@ impl Curve {
     /// # Errors
     /// A table cannot be read, has no such column or names, or both tables have rows at other times; the error names it.
     pub fn read(folder: &Path, [x, y]: [&CurveAxis; 2]) -> io::Result<Curve> {
-        let ([time, x_values], [other, y_values]) = (x.read(folder)?, y.read(folder)?);
-        if time != other {
+        let (x_points, y_points) = (x.read(folder)?, y.read(folder)?);
+        if (&x_points.time, &x_points.stage) != (&y_points.time, &y_points.stage) {
             let why = format!("{} and {} have rows at other times, so neither goes over the other", x.file, y.file);
             return Err(at(folder, io::Error::other(why)));
         }
-        Ok(Curve { time, x: x_values, y: y_values })
+        let scale = x_points.value.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        Ok(Curve { stage: x_points.stage, time: x_points.time, x: x_points.value, y: y_points.value, scale })
     }
 
-    /// ∫ y dx along the curve, by trapezoids.
-    pub fn work(&self) -> f64 {
-        let pairs = self.x.windows(2).zip(self.y.windows(2));
-        pairs.map(|(x, y)| 0.5 * (x[1] - x[0]) * (y[0] + y[1])).sum()
+    /// The curve in one stage; empty without such a stage.
+    pub fn in_stage(&self, stage: &str) -> Curve {
+        let is_of = |place: &usize| self.stage.get(*place).is_some_and(|own| own == stage);
+        let places: Vec<usize> = (0..self.time.len()).filter(is_of).collect();
+        let take = |of: &[f64]| places.iter().map(|&place| of[place]).collect();
+        Curve {
+            stage: vec![stage.to_owned(); places.len()],
+            time: take(&self.time),
+            x: take(&self.x),
+            y: take(&self.y),
+            scale: self.scale,
+        }
+    }
+
+    /// The marks of each stage.
+    pub fn marks(&self) -> Vec<CurveMarks> {
+        let count = self.time.len();
+        let begins = (0..count).filter(|&k| k == 0 || self.stage.get(k) != self.stage.get(k - 1));
+        let mut begins: Vec<usize> = begins.collect();
+        begins.extend((count > 0).then_some(count));
+        begins.windows(2).map(|ends| self.marks_of(ends[0]..ends[1])).collect()
+    }
+
+    /// The marks of some points, at least one.
+    fn marks_of(&self, points: Range<usize>) -> CurveMarks {
+        let by = |a: &usize, b: &usize| self.y[*a].total_cmp(&self.y[*b]);
+        let [first, last] = [points.start, points.end - 1];
+        let [most, least] = [points.clone().max_by(by), points.clone().min_by(by)].map(|place| place.unwrap_or(first));
+        let second = points.clone().find(|&k| (self.x[k] - self.x[first]).abs() > ROUNDING * self.scale);
+        let pairs = self.x[points.clone()].windows(2).zip(self.y[points].windows(2));
+        CurveMarks {
+            stage: self.stage.get(first).cloned().unwrap_or_default(),
+            extremes: [most, least, last],
+            first_slope: second.map(|k| (self.y[k] - self.y[first]) / (self.x[k] - self.x[first])),
+            work: pairs.map(|(x, y)| 0.5 * (x[1] - x[0]) * (y[0] + y[1])).sum(),
+        }
     }
 }
 
+/// The rows of an axis, one for each row of output.
+#[derive(Debug, Default)]
+struct Points {
+    stage: Vec<String>,
+    time: Vec<f64>,
+    value: Vec<f64>,
+}
+
 impl CurveAxis {
-    /// The times and the values, one for each time of output.
-    fn read(&self, folder: &Path) -> io::Result<[Vec<f64>; 2]> {
+    /// The values, summed over all rows of the same stage, step and time.
+    fn read(&self, folder: &Path) -> io::Result<Points> {
         let path = folder.join(&self.file);
         let mut rows = TableReader::open(&path)?;
         let place = |rows: &TableReader, name: &str| {
-            rows.column(name).ok_or_else(|| at(&path, io::Error::other(format!("there is no column `{name}`"))))
+            rows.column(name).ok_or_else(|| {
+                let known: Vec<&str> = rows.header.iter().map(String::as_str).collect();
+                let why = format!("there is no column `{name}`; the columns are {}", known.join(", "));
+                at(&path, io::Error::other(why))
+            })
         };
         let (time_at, place_of_value) = (place(&rows, "time")?, place(&rows, &self.column)?);
-        let [step_at, set_at] = ["step", SET].map(|name| rows.column(name));
+        let [step_at, stage_at, set_at] = ["step", STAGE, SET].map(|name| rows.column(name));
         let width = rows.header.len();
         let keys: Vec<usize> = (0..width).filter(|&key| rows.is_key(key) && names_subject(&rows.header[key])).collect();
         // The load case stands before the subject.
         let first = keys.iter().take_while(|&&key| rows.header[key] == CASE).count();
-        let (mut times, mut values, mut found) = (Vec::new(), Vec::new(), 0);
+        let (mut points, mut found) = (Points::default(), 0);
         let mut before = None;
         let sign = if self.is_negative { -1.0 } else { 1.0 };
         let mut ragged = None;
@@ -113,11 +181,13 @@ impl CurveAxis {
                 ragged = Some(row.len());
                 break;
             }
-            let now = (step_at.map(|step| number(row[step]).to_bits()), number(row[time_at]));
-            if before != Some(now) {
+            let (stage, time) = (stage_at.map(|stage| text(row[stage])), number(row[time_at]));
+            let now = (step_at.map(|step| number(row[step]).to_bits()), time);
+            if before != Some(now) || points.stage.last().map(String::as_str) != stage.as_deref() {
                 before = Some(now);
-                times.push(now.1);
-                values.push(0.0);
+                points.time.push(time);
+                points.value.push(0.0);
+                points.stage.extend(stage.map(Cow::into_owned));
             }
             let words: Vec<_> = keys.iter().map(|&key| text(row[key])).collect();
             let is_meant = |subject: &str| {
@@ -131,7 +201,7 @@ impl CurveAxis {
             let own = words.get(first).map_or("", Cow::as_ref);
             if is_meant(own) || names.split(BETWEEN_SETS).filter(|set| !set.is_empty()).any(is_meant) {
                 found += 1;
-                if let Some(sum) = values.last_mut() {
+                if let Some(sum) = points.value.last_mut() {
                     *sum += sign * number(row[place_of_value]);
                 }
             }
@@ -146,7 +216,7 @@ impl CurveAxis {
             };
             return Err(at(&path, io::Error::other(why)));
         }
-        Ok([times, values])
+        Ok(points)
     }
 }
 
@@ -180,7 +250,8 @@ mod tests {
         let [x, y] = [axis("nodes.csv:tip:ux"), axis("-reactions.csv:* ux:value")];
         let curve = Curve::read(dir.path(), [&x, &y]).unwrap();
         assert_eq!((&curve.x, &curve.y), (&vec![0.0, 1.0, 3.0], &vec![0.0, 5.0, 6.0]));
-        assert_eq!(curve.work(), 2.5 + 11.0);
+        let marks = curve.marks();
+        assert_eq!((marks.len(), marks[0].work, marks[0].first_slope), (1, 2.5 + 11.0, Some(5.0)));
         // A component of force selects the rows of its direction.
         assert_eq!(Curve::read(dir.path(), [&x, &axis("-reactions.csv:*:fx")]).unwrap(), curve);
         assert_eq!(Curve::read(dir.path(), [&x, &axis("reactions.csv:b:fy")]).unwrap().y, [7.0; 3]);
@@ -191,6 +262,18 @@ mod tests {
         std::fs::write(dir.path().join("steps.csv"), "step,time,iterations\n0,0.0,1\n").unwrap();
         assert!(error("steps.csv:iterations").contains("other times"));
         assert!("nodes.csv".parse::<CurveAxis>().is_err() && "nodes:tip:ux".parse::<CurveAxis>().is_err());
+        // The end of a stage and the begin of the next are two points, and a change by rounding has no slope.
+        let text =
+            "step,time,stage,node,ux\n0,0.0,weight,a,0.0\n1,1.0,weight,a,1e-18\n1,1.0,push,a,1e-18\n2,2.0,push,a,0.5\n";
+        std::fs::write(dir.path().join("nodes.csv"), text).unwrap();
+        let x = axis("nodes.csv:a:ux");
+        let curve = Curve::read(dir.path(), [&x, &axis("-nodes.csv:*:ux")]).unwrap();
+        assert_eq!(curve.x, [0.0, 1e-18, 1e-18, 0.5]);
+        let stages: Vec<_> = curve.marks().into_iter().map(|of| (of.stage, of.extremes, of.first_slope)).collect();
+        assert_eq!(stages, [("weight".into(), [0, 1, 1], None), ("push".into(), [2, 3, 3], Some(-1.0))]);
+        let weight = curve.in_stage("weight");
+        assert_eq!((weight.time.len(), weight.marks()[0].first_slope), (2, None));
+        assert!(curve.in_stage("pull").marks().is_empty());
         for (pattern, name, is) in [("*", "", true), ("a*c", "abc", true), ("a*c", "ab", false), ("*b*", "abc", true)] {
             assert_eq!(matches(pattern, name), is, "{pattern} {name}");
         }

@@ -60,11 +60,15 @@ pub struct Extremum {
 }
 
 impl ResultSummary {
-    /// Reads a folder of results. Costs of steps are omitted. With a filter, extremes are those of the filtered columns.
+    /// Reads a folder of results, or one stage of it. Costs of steps are omitted. With a filter, extremes are those of the filtered columns.
     ///
     /// # Errors
-    /// There are no results, a file cannot be read, or its rows do not suit the filter; the error names it.
-    pub fn of(folder: &Path, filter: Option<&Filter>, only: &[Selector]) -> io::Result<ResultSummary> {
+    /// There are no results, none of such a stage, a file cannot be read, or its rows do not suit the filter; the error names it.
+    pub fn of(
+        folder: &Path,
+        filter: Option<&Filter>,
+        (only, stage): (&[Selector], Option<&str>),
+    ) -> io::Result<ResultSummary> {
         let path = folder.join(result_json::NAME);
         let result: Value = match read_regular(&path) {
             Ok(bytes) => serde_json::from_slice(&bytes).map_err(|error| at(&path, error.into()))?,
@@ -77,16 +81,21 @@ impl ResultSummary {
         let takes =
             |file: &str, column: &str| only.is_empty() || only.iter().any(|selector| selector.takes(file, column));
         for table in TABLES.iter().filter(|table| !table.every_step && is_there(table.file)) {
+            let mut rows = TableReader::open(&folder.join(table.file))?;
+            stage.map_or(Ok(()), |stage| rows.in_stage(stage))?;
             let of_table = match filter {
                 Some(filter) if table.columns().any(|column| takes(table.file, column.name)) => {
-                    filtered(folder, table.file, (filter, &takes), &mut doubts)?
+                    filtered((&folder.join(table.file), table.file), rows, (filter, &takes), &mut doubts)?
                 }
-                _ => of_table(folder, table.file)?,
+                _ => of_table(table.file, rows)?,
             };
             columns.extend(of_table.into_iter().filter(|column| takes(&column.table, &column.column)));
         }
         if result.is_null() && !TABLES.iter().any(|table| is_there(table.file)) {
             return Err(at(folder, io::Error::other("no results: neither a table nor result.json")));
+        }
+        if let Some(stage) = stage.filter(|_| columns.is_empty()) {
+            return Err(at(folder, io::Error::other(format!("no row is of a stage `{stage}`"))));
         }
         let list = |key: &str| result[key].as_array().into_iter().flatten();
         let word = |key: &str| result[key].as_str().unwrap_or_default().to_owned();
@@ -126,8 +135,7 @@ fn expectation(one: &Value) -> String {
 }
 
 /// The extremes of all columns of numbers of a table; none where it has no rows.
-fn of_table(folder: &Path, file: &str) -> io::Result<Vec<ColumnSummary>> {
-    let mut rows = TableReader::open(&folder.join(file))?;
+fn of_table(file: &str, mut rows: TableReader) -> io::Result<Vec<ColumnSummary>> {
     let Some(time_at) = rows.column("time") else { return Ok(Vec::new()) };
     let is_number = |place: &usize| !rows.is_key(*place) && *place != time_at && rows.header[*place] != "step";
     let (keys, places): (Vec<usize>, Vec<usize>) = (
@@ -208,14 +216,13 @@ fn series(rows: &mut TableReader, takes: &dyn Fn(&str) -> bool) -> io::Result<(V
 /// The extremes of all columns of numbers of a table after a filter, which goes over the rows of each name. Columns with empty fields are left
 /// out.
 fn filtered(
-    folder: &Path,
-    file: &str,
+    (path, file): (&Path, &str),
+    mut rows: TableReader,
     (filter, takes): (&Filter, &Takes),
     doubts: &mut Vec<String>,
 ) -> io::Result<Vec<ColumnSummary>> {
-    let path = folder.join(file);
-    let (all, columns) = series(&mut TableReader::open(&path)?, &|column| takes(file, column))?;
-    let unfit = |why: String| at(&path, io::Error::other(why));
+    let (all, columns) = series(&mut rows, &|column| takes(file, column))?;
+    let unfit = |why: String| at(path, io::Error::other(why));
     let mut found: Vec<Option<[Extremum; 3]>> = vec![None; columns.len()];
     for Series { name, times, values } in &all {
         let sampling = TimeSampling::of(times).map_err(unfit)?;

@@ -23,6 +23,8 @@ pub struct TableReader {
     pub header: Vec<String>,
     /// For each column, whether it is a key.
     keys: Vec<bool>,
+    /// The place of the column of stages, and the stage whose rows alone are read.
+    stage: Option<(usize, String)>,
     /// The number of rows so far, without the header.
     pub count: usize,
     /// True if the last line had no end; known after all rows have been read.
@@ -39,7 +41,7 @@ impl TableReader {
         let reader = BufReader::with_capacity(CHUNK, file);
         let (path, line) = (path.to_owned(), Vec::new());
         let (header, keys) = (Vec::new(), Vec::new());
-        let mut rows = TableReader { path, reader, line, header, keys, count: 0, truncated: false };
+        let mut rows = TableReader { path, reader, line, header, keys, stage: None, count: 0, truncated: false };
         if !rows.read()? {
             let text = "no whole header row: the file was cut short";
             return Err(at(&rows.path, io::Error::new(io::ErrorKind::InvalidData, text)));
@@ -47,6 +49,16 @@ impl TableReader {
         rows.header = fields(&rows.line).map(|field| text(field).into_owned()).collect();
         rows.keys = rows.find_keys()?;
         Ok(rows)
+    }
+
+    /// Reads the rows of one stage alone.
+    ///
+    /// # Errors
+    /// The table has no stages; the error names it.
+    pub fn in_stage(&mut self, stage: &str) -> io::Result<()> {
+        let none = || at(&self.path, io::Error::other("its rows are of no stage: the deck has no `[[stages]]`"));
+        self.stage = Some((self.column(STAGE).ok_or_else(none)?, stage.to_owned()));
+        Ok(())
     }
 
     /// For each column, whether it is a key. The definition of the table decides. In a table of another program, keys are the leading
@@ -90,10 +102,18 @@ impl TableReader {
     /// # Errors
     /// The file cannot be read; the error names it.
     pub fn next_row(&mut self) -> io::Result<Option<&[u8]>> {
-        if !self.read()? {
-            return Ok(None);
+        loop {
+            if !self.read()? {
+                return Ok(None);
+            }
+            self.count += 1;
+            let is_of = |(place, stage): &(usize, String)| {
+                fields(&self.line).nth(*place).is_some_and(|own| text(own) == *stage)
+            };
+            if self.stage.as_ref().is_none_or(is_of) {
+                break;
+            }
         }
-        self.count += 1;
         Ok(Some(&self.line))
     }
 
