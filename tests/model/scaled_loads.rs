@@ -101,3 +101,42 @@ fn growth_that_is_meant_is_not_told() {
         assert_eq!(run(folder.path(), &column(&alone(), &loads)).0, "", "{loads}");
     }
 }
+
+/// The pattern of loads takes either sign, in a first stage and after others: the column is the same to both sides, so the force is, too.
+/// What began before keeps its value.
+#[test]
+fn a_displacement_against_the_loads_turns_them_round() {
+    let folder = tempfile::tempdir().unwrap();
+    let stage = |name: &str, keys: &str| format!("[[stages]]\nname = \"{name}\"\nkind = \"static\"\n{keys}");
+    let back = STOP.replace("0.05", "-0.05");
+    let push = |stage: &str| format!("{PUSH}stages = [\"{stage}\"]\n");
+    let (_, there) = run(folder.path(), &column(&alone(), PUSH));
+    let (said, alone) = run(folder.path(), &column(&alone().replace(STOP, &back), PUSH));
+    assert_eq!(said, "");
+    assert!((alone + there).abs() < 1e-9, "{alone} {there}");
+
+    let weight = stage("weight", "duration = 1.0\ntime_step = 0.5\n");
+    let (_, there) =
+        run(folder.path(), &column(&(weight.clone() + &stage("push", STOP)), &(WEIGHT.to_owned() + &push("push"))));
+    let (_, against) =
+        run(folder.path(), &column(&(weight.clone() + &stage("push", &back)), &(WEIGHT.to_owned() + &push("push"))));
+    assert!((against + there - 2.0).abs() < 1e-7 * there, "{against} {there}");
+
+    // There and back: what remains of the first push is part of the sum, and rest changes nothing.
+    let both = weight.clone()
+        + &stage("push", STOP)
+        + &stage("back", &back)
+        + &stage("rest", "duration = 1.0\ntime_step = 0.5\n");
+    let pushes = format!("{PUSH}stages = [\"push\", \"back\", \"rest\"]\n");
+    let last = format!("{PUSH}stages = [\"back\", \"rest\"]\n");
+    let expect = "[[expect]]\nat = \"b\"\nquantity = \"ux\"\nstage = \"rest\"\nvalue = -0.05\ntolerance = 1e-6\n";
+    let (_, end) = run(folder.path(), &column(&both, &[WEIGHT, &pushes, &last, expect].concat()));
+    assert!((end - (1.0 - (there - 1.0) + 1.0)).abs() < 1e-6, "{end} {there}");
+
+    // Nothing grows where all loads have grown before.
+    std::fs::write(folder.path().join("deck.toml"), column(&(weight + &stage("push", STOP)), PUSH)).unwrap();
+    let mut command = Command::cargo_bin("rdsolve").unwrap();
+    let done = command.current_dir(folder.path()).args(["check", "deck.toml"]).assert().code(3);
+    let said = String::from_utf8(done.get_output().stderr.clone()).unwrap();
+    assert!(said.contains("nothing grows here") && said.contains("add a load with `stages = [\"push\"]`"), "{said}");
+}

@@ -1,5 +1,4 @@
-//! Loads that steps along a path scale although they look permanent: gravity beside other loads, and loads across the displacement that is
-//! moved.
+//! Loads that steps along a path scale. Gravity beside other loads looks permanent, and so do loads across the controlled displacement.
 
 use crate::data::{ArcLength, DIRECTIONS, Load};
 use crate::environment::gravity;
@@ -33,6 +32,18 @@ pub fn check_scaled_loads(
 ) {
     let control = scene.deck.analysis.as_ref().and_then(|analysis| analysis.control.as_ref());
     let (Some(path), Some(control)) = (path, control) else { return };
+    if control.value == Control::Displacement && !may_grow(scene) {
+        let message =
+            "nothing grows here: displacement control scales the loads that begin with it, and there are none";
+        let hint = match scene.stage {
+            Some(stage) => {
+                format!("add a load with `stages = [\"{}\"]`: loads of earlier stages keep their values", stage.name())
+            }
+            None => "add `[[loads]]`".to_owned(),
+        };
+        report.error_with::<()>(&control.span, message, hint);
+        return;
+    }
     let own = scene.stage.map(|stage| stage.amplitude_of_loads());
     let acts = |load: &Load| load.coordinate().is_none() && !topology.list[load.node].is_number;
     let is_scaled = |load: &&Load| load.amplitude == own && acts(load) && load.force != Vec3::zeros();
@@ -51,6 +62,19 @@ pub fn check_scaled_loads(
     if let (Control::Displacement, Some(stop)) = (control.value, path.stop) {
         check_across(scene, stop.dof, &scaled, report);
     }
+}
+
+/// True if a load or a motion first acts here, or has an amplitude.
+fn may_grow(scene: &Scene) -> bool {
+    let deck = scene.deck;
+    let environment = deck.environment.as_ref().is_some_and(|at| {
+        !at.base_acceleration.is_empty() || at.gravity_amplitude.is_some() || is_new(scene.stage, &at.gravity_stages)
+    });
+    deck.loads.iter().any(|load| load.amplitude.is_some() || is_new(scene.stage, &load.stages))
+        || environment
+        || deck.supports.iter().any(|support| support.motion.is_some())
+        || deck.joints.iter().any(|joint| joint.motion.is_some() || joint.effort.is_some())
+        || !deck.actuators.is_empty()
 }
 
 /// True of loads with these `stages` that first act in this stage.

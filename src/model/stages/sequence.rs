@@ -201,7 +201,7 @@ impl<'d> StageSequence<'d> {
     }
 
     /// The functions of time for actions without an amplitude, one per stage of their first action: a static stage ramps them up, then they
-    /// stay constant. Amplitudes of loads follow; under displacement control they grow until the end of the stage.
+    /// stay constant. Amplitudes of loads follow; under displacement control they grow or fall, below zero too, until the end of the stage.
     pub fn own_amplitudes(&self) -> impl Iterator<Item = Amplitude> {
         let ends = self.stages.iter().map(|stage| (stage, stage.end.min(stage.begin + stage.duration)));
         let of_loads = self.stages.iter().map(|stage| match is_moved(stage.table) && !stage.has_ended {
@@ -215,8 +215,10 @@ impl<'d> StageSequence<'d> {
             if end == stage.begin + stage.duration {
                 return Amplitude::Ramp { start: stage.begin, end };
             }
-            let reached = (end - stage.begin) / stage.duration;
-            Amplitude::Table(StraightLines::new(vec![[stage.begin, 0.0], [end, reached]]))
+            // A stage whose loads have fallen below zero has ended before it began.
+            let reached = [end, (end - stage.begin) / stage.duration];
+            let begin = Some([stage.begin, 0.0]).filter(|point| point[0] < reached[0]);
+            Amplitude::Table(StraightLines::new(begin.into_iter().chain([reached]).collect()))
         })
     }
 

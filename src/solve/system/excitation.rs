@@ -89,10 +89,14 @@ impl<'a> Excitation<'a> {
             let passes_end = model.analysis.stage.as_ref().is_some_and(|stage| stage.loads_grow)
                 && matches!(&model.analysis.step_length, StepLength::ArcLength(path) if path.increment.is_some());
             let end = if passes_end { FARTHEST } else { 1.0 } * model.analysis.end_time;
+            // Loads that grow from zero in a stage fall below zero before it, and all others stay.
+            let is_staged = model.analysis.stage.is_some();
+            let begin = |a: &Amplitude| if is_staged { model.analysis.begin } else { a.begin().min(0.0) };
+            let stays = |a: &Amplitude, t: f64| is_staged && a.value(t) != 0.0;
+            let rate = |a: &Amplitude, t: f64| if stays(a, t) { 0.0 } else { a.rate(t, Side::After) };
             let loads = model.loading.amplitudes.iter();
-            excitation.loads = loads
-                .map(|a| Extrapolation::new(a.begin().min(0.0), end, |t| a.value(t), |t| a.rate(t, Side::After)))
-                .collect();
+            excitation.loads =
+                loads.map(|a| Extrapolation::new(begin(a), end, |t| a.value(t), |t| rate(a, t))).collect();
             let beyond = |restraint: &Restraint| {
                 let Some(motion) = &restraint.motion else { return Extrapolation::new(0.0, end, |_| 0.0, |_| 0.0) };
                 let amplitude = &model.loading.amplitudes[motion.amplitude];
