@@ -20,7 +20,7 @@ use super::data::{
 };
 use super::environment::{AccelerationFields, damping, environment, gravity};
 use super::equations::equations;
-use super::expects::expects;
+use super::expects::{expects, summed_reactions};
 use super::groups::Groups;
 use super::initial::initial;
 use super::joints::coordinate::Joints;
@@ -273,6 +273,7 @@ fn model<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, files: Files<'d>, 
     check_sound(&scene, &amplitudes, &topology, Ties::new(&topology, &joints, linked), report);
     place_nodes(&scene.names, &scene.parts, &mut topology);
     let sets = supported_sets(&asked.selection, &scene, &topology.list);
+    let sums = summed_reactions(&scene, &asked.expects, &topology);
     let targets = std::mem::take(&mut topology.targets);
     let (nodes, dependents, restraints) = topology.into_parts();
     let mut analysis = Analysis { stage: asked.stage, ..scene.analysis };
@@ -306,6 +307,7 @@ fn model<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, files: Files<'d>, 
             targets,
             ties: tie_names(deck),
             sets,
+            sums,
         },
         loading: acting.fields.with(amplitudes, acting.loads),
         cases: asked.cases,

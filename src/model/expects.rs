@@ -16,7 +16,7 @@ use base::quantities::{self, Column, PLASTIC_STRAIN, QUATERNION, SECTION_STRESSE
 use deck::expect as words;
 use deck::parts::PartIndex;
 use deck::words::Table;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 /// The remedy where a plastic strain of an elastic part is expected.
@@ -70,6 +70,15 @@ pub(super) fn expects<'d>(
         Some(Expect { index, ..expect })
     };
     tables_of.filter_map(read).collect()
+}
+
+/// For each of `[sets]` with an expected reaction, the labels of its nodes; empty for the other sets.
+pub(super) fn summed_reactions(scene: &Scene, expects: &[Expect], topology: &Topology) -> Vec<HashSet<String>> {
+    let labels = |set: usize| match expects.iter().any(|expect| expect.at == ExpectAt::Reactions(set)) {
+        true => scene.nodes_of(Place::Set(set)).into_iter().map(|node| topology.label(node).to_owned()).collect(),
+        false => HashSet::new(),
+    };
+    (0..scene.deck.sets.0.len()).map(labels).collect()
 }
 
 impl<'d> Expects<'_, 'd> {
@@ -324,12 +333,15 @@ impl<'d> Expects<'_, 'd> {
             Some(Place::Part(part)) if part.kind.has_sections() => self.expect_forces(part, name),
             Some(Place::Part(part)) if part.kind.is_deformable() => self.expect_strain(part, name),
             Some(Place::Part(part)) => Some((ExpectAt::Part(part), quantities_of(part.kind))),
+            Some(Place::Set(set)) if !self.reactions_of(set).is_empty() => {
+                Some((ExpectAt::Reactions(set), self.reactions_of(set)))
+            }
             Some(place) => {
                 let message = format!("`{}` is {}, without values", name.value, place.kind());
                 self.report.error_with(
                     &name.span,
                     message,
-                    "name a point, body, part, link, joint, contact or drift, or \"energy\"",
+                    "name a point, body, part, link, joint, contact, drift or set with supports, or \"energy\"",
                 )
             }
             None => self.unknown(name),
@@ -379,6 +391,13 @@ impl<'d> Expects<'_, 'd> {
         let held = self.held.get(self.topology.label(node)).copied().unwrap_or_default();
         let columns = quantities::REACTION.into_iter().zip(held);
         columns.filter_map(|(column, is_held)| is_held.then_some(column)).collect()
+    }
+
+    /// The columns of reactions of a set: all directions with a support at one of its nodes.
+    fn reactions_of(&self, set: usize) -> Vec<Column> {
+        let nodes = self.scene.nodes_of(Place::Set(set));
+        let held: Vec<Column> = nodes.into_iter().flat_map(|node| self.reactions(node)).collect();
+        quantities::REACTION.into_iter().filter(|column| held.contains(column)).collect()
     }
 
     /// A surface; one with errors, which have been reported, has no parts.

@@ -4,7 +4,7 @@ use base::math::Vec3;
 use base::math::turn::RotationAngles;
 use deck::supports::History;
 use mechanics::constraints::joint::{ConstraintEquation, Drive, SecondNode};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// The constraints of a scene: rigid links, joints and restraints.
 #[derive(Debug, Clone, Default)]
@@ -23,6 +23,8 @@ pub struct Constraints {
     pub ties: Vec<String>,
     /// For the label of each supported node the sets, groups and parts under which `[[supports]]` name it.
     pub sets: HashMap<String, String>,
+    /// The labels of the nodes of each of `[sets]`, in deck order; empty where no reaction of the set is expected.
+    pub sums: Vec<HashSet<String>>,
 }
 
 impl Constraints {

@@ -31,6 +31,8 @@ pub enum ExpectAt {
     Analysis,
     /// The motion of a node, or of a body by its node.
     Node(usize),
+    /// The reactions of a set, summed over its nodes: by the place of [`super::Constraints::sums`].
+    Reactions(usize),
     /// Columns of energy.csv.
     Energy,
     /// Columns of modes.csv, of the mode at this place of its list.

@@ -49,19 +49,22 @@ pub static TABLE: TableKind = TableKind {
 
 fn quantities(at: ExpectAt) -> Vec<&'static str> {
     match at {
-        ExpectAt::Node(_) => names(&[&REACTION]),
+        ExpectAt::Node(_) | ExpectAt::Reactions(_) => names(&[&REACTION]),
         _ => Vec::new(),
     }
 }
 
 fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
-    let ExpectAt::Node(node) = at else { return None };
-    let nodes = &frame.model.nodes;
-    // A node that depends on another is held at a point of its name.
-    let is_here =
-        |held: &Restraint| held.dof == index && (held.node == node || nodes[held.node].label == nodes[node].label);
-    let held = frame.model.constraints.restraints.iter().zip(frame.reactions);
-    held.filter(|(restraint, _)| is_here(restraint)).map(|(_, value)| *value).reduce(|sum, value| sum + value)
+    let Frame { model: Model { nodes, constraints, .. }, reactions, .. } = frame;
+    let is_here = |held: &Restraint| match at {
+        // A node that depends on another is held at a point of its name.
+        ExpectAt::Node(node) => held.node == node || nodes[held.node].label == nodes[node].label,
+        ExpectAt::Reactions(set) => constraints.sums[set].contains(&nodes[held.node].label),
+        _ => false,
+    };
+    let held = constraints.restraints.iter().zip(*reactions);
+    let values = held.filter(|(restraint, _)| restraint.dof == index && is_here(restraint)).map(|(_, value)| *value);
+    values.reduce(|sum, value| sum + value)
 }
 
 /// The force and moment of a joint on its first part, in the order of [`DIRECTIONS`].
