@@ -275,15 +275,15 @@ impl Diagnostic {
 }
 
 impl Diagnostic {
-    /// The diagnostic as one line of JSON: severity, message, hints and, where it has a place, file, line and column from 1 and the length
-    /// in bytes.
-    pub fn json(&self, source: &Source) -> String {
-        let severity = match self.severity {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-            Severity::Note => "note",
-        };
-        let place = match (self.excerpt.as_deref(), &self.place) {
+    /// The file of the diagnostic; `None` for the deck as a whole.
+    pub fn file<'s>(&'s self, source: &'s Source) -> Option<&'s str> {
+        let place = || Some(source.locate(self.place.as_ref()?).0);
+        self.excerpt.as_ref().map(|excerpt| excerpt.path.as_str()).or_else(place)
+    }
+
+    /// The file of the diagnostic, the number of its line from 1, and its bytes in the line; `None` for the deck as a whole.
+    pub fn position<'s>(&'s self, source: &'s Source) -> Option<(&'s str, usize, Range<usize>)> {
+        match (self.excerpt.as_deref(), &self.place) {
             (Some(Excerpt { path, line, columns, .. }), _) => Some((path.as_str(), *line, columns.clone())),
             (None, Some(place)) => {
                 let (name, text, range) = source.locate(place);
@@ -293,9 +293,19 @@ impl Diagnostic {
                 Some((name, line, start - begin..range.end.max(start) - begin))
             }
             (None, None) => None,
+        }
+    }
+
+    /// The diagnostic as one line of JSON: severity, message, hints and, where it has a place, file, line and column from 1 and the length
+    /// in bytes.
+    pub fn json(&self, source: &Source) -> String {
+        let severity = match self.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "note",
         };
         let mut json = serde_json::json!({ "severity": severity, "message": self.message, "hints": self.remedies() });
-        if let Some((file, line, columns)) = place {
+        if let Some((file, line, columns)) = self.position(source) {
             json["file"] = file.into();
             json["line"] = line.into();
             json["column"] = (columns.start + 1).into();

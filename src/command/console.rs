@@ -2,6 +2,8 @@
 
 use super::exit::Exit;
 use base::diagnostic::{Diagnostic, Source, plain};
+use base::names::joined;
+use std::collections::HashMap;
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -22,25 +24,60 @@ pub fn print(text: &str) -> Result<(), Exit> {
 /// The number of errors, and of warnings, that are shown: nobody reads on, and a deck of a million lines may have as many.
 const SHOWN: usize = 50;
 
-/// Draws diagnostics on standard error. Where there are very many, it draws the first of each severity and says how many more
-/// there are.
+/// The number of lines that are listed of diagnostics with the same words.
+const LINES: usize = 20;
+
+/// Draws diagnostics on standard error. Diagnostics with the same words are drawn once, with all their lines. Where there are very many, it draws
+/// the first of each severity and says how many more there are.
 pub fn show(problems: &[Diagnostic], source: &Source) {
-    let mut counts = [0_usize; 3];
+    let (mut drawn, mut left) = ([0_usize; 3], [0_usize; 3]);
+    for alike in alike(problems, source) {
+        let kind = alike[0].severity as usize;
+        if drawn[kind] == SHOWN {
+            left[kind] += alike.len();
+            continue;
+        }
+        drawn[kind] += 1;
+        match shows_json() {
+            true => write(&alike[0].json(source)),
+            false => write(&format!("{}\n", merged(&alike, source).draw(source, is_styled()))),
+        }
+    }
+    for (count, thing) in left.into_iter().zip(["error", "warning", "note"]) {
+        if count > 0 {
+            say(&format!("… and {}\n", counted(count, &format!("more {thing}"))));
+        }
+    }
+}
+
+/// Diagnostics with the same words about the same file, in the order of their first ones; as JSON each is alone.
+fn alike<'p>(problems: &'p [Diagnostic], source: &'p Source) -> Vec<Vec<&'p Diagnostic>> {
+    let mut groups: Vec<Vec<&Diagnostic>> = Vec::new();
+    let mut known = HashMap::new();
     for problem in problems {
-        let count = &mut counts[problem.severity as usize];
-        *count += 1;
-        if *count <= SHOWN {
-            match shows_json() {
-                true => write(&problem.json(source)),
-                false => write(&format!("{}\n", problem.draw(source, is_styled()))),
-            }
+        let words = (problem.severity, problem.message.as_str(), &problem.hints, problem.file(source));
+        match *known.entry(words).or_insert(groups.len()) {
+            group if group < groups.len() && !shows_json() => groups[group].push(problem),
+            _ => groups.push(vec![problem]),
         }
     }
-    for (count, thing) in counts.into_iter().zip(["error", "warning", "note"]) {
-        if count > SHOWN {
-            say(&format!("… and {}\n", counted(count - SHOWN, &format!("more {thing}"))));
-        }
+    groups
+}
+
+/// The first of alike diagnostics, with the lines of the others.
+fn merged(alike: &[&Diagnostic], source: &Source) -> Diagnostic {
+    let others = alike[1..].iter().take(LINES).filter_map(|problem| problem.position(source));
+    let mut lines: Vec<String> = others.map(|(_, line, _)| line.to_string()).collect();
+    let mut first = alike[0].clone();
+    if !lines.is_empty() {
+        let noun = if lines.len() == 1 { "line" } else { "lines" };
+        let more = (alike.len() - 1).saturating_sub(LINES);
+        lines.extend((more > 0).then(|| format!("{more} more")));
+        let lines: Vec<&str> = lines.iter().map(String::as_str).collect();
+        first.hints = first.remedies();
+        first.hints.push(format!("the same in {noun} {}", joined(&lines)));
     }
+    first
 }
 
 /// Writes an error that has no place in a deck to standard error.

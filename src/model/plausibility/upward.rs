@@ -2,32 +2,43 @@
 
 use crate::environment::gravity;
 use crate::report::Report;
-use crate::values::vec3_or_zero;
+use crate::values::vec3;
+use base::diagnostic::At;
 use base::math::Vec3;
 use deck::Deck;
 use deck::amplitudes::AmplitudeKind;
 use deck::loads::Load;
+use deck::words::Table;
 
 /// Cosine beyond which a load acts along a direction: inclined loads are no weights.
 const ALONG: f64 = 0.9999;
 
 /// Notes loads that act straight against gravity for the whole run, as a weight of the wrong sign does. Loads that lift are as frequent, so
-/// that this is no warning.
+/// that this is no warning. Where gravity is along a positive axis and against all of them, the note is about gravity.
 pub fn check_upward(deck: &Deck, report: &mut Report) {
     let Some(down) = gravity(deck).try_normalize(0.0) else { return };
-    for load in deck.loads.iter().filter(|load| stays(deck, load) && load.follower.as_ref().is_none_or(|at| !at.value))
-    {
-        for given in [&load.force, &load.total_force, &load.force_per_length, &load.force_per_area] {
-            let force = vec3_or_zero(given);
-            let Some(at) = given.as_ref().filter(|_| force.dot(&down) < -ALONG * force.norm()) else { continue };
-            let turned: Vec3 = force.map(|x| if x == 0.0 { 0.0 } else { -x });
-            let message = "this load acts upwards, against gravity";
-            let hint = format!(
-                "for a weight write [{:?}, {:?}, {:?}]; a load that lifts is right as it is",
-                turned.x, turned.y, turned.z
-            );
-            report.note(&at.span, message, hint);
-        }
+    let stays = |load: &&At<Table<Load>>| stays(deck, load) && load.follower.as_ref().is_none_or(|at| !at.value);
+    let given = deck.loads.iter().filter(stays).flat_map(|load| {
+        [&load.force, &load.total_force, &load.force_per_length, &load.force_per_area].into_iter().flatten()
+    });
+    let (against, with): (Vec<_>, Vec<_>) = given
+        .map(|at| (at, vec3(at)))
+        .filter(|(_, force)| force.dot(&down).abs() > ALONG * force.norm())
+        .partition(|(_, force)| force.dot(&down) < 0.0);
+    let turned = |vector: &Vec3| {
+        let [x, y, z]: [f64; 3] = vector.map(|x| if x == 0.0 { 0.0 } else { -x }).into();
+        format!("[{x:?}, {y:?}, {z:?}]")
+    };
+    let environment = deck.environment.as_ref().and_then(|environment| environment.gravity.as_ref());
+    if let Some(at) = environment.filter(|_| with.is_empty() && against.len() > 1 && down.max() > ALONG) {
+        let message = "gravity acts upwards, against all loads along it";
+        let hint = format!("for weights write {}; loads that lift are right as they are", turned(&gravity(deck)));
+        return report.note(&at.span, message, hint);
+    }
+    for (at, force) in against {
+        let message = "this load acts upwards, against gravity";
+        let hint = format!("for a weight write {}; a load that lifts is right as it is", turned(&force));
+        report.note(&at.span, message, hint);
     }
 }
 
