@@ -61,6 +61,9 @@ pub struct RunResult {
     pub origin: RunOrigin,
     /// The lines that `rdsolve check` prints.
     pub plan: Vec<String>,
+    /// True for displacement control: times are then load factors, and rows of two runs match by steps.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub by_displacement: bool,
     /// The size of the scene and of its equations.
     pub sizes: Sizes,
     /// The work of the solver.

@@ -155,7 +155,8 @@ impl Comparison {
 /// A folder holds no results, or a file in it cannot be read; the error names it.
 pub fn compare(folders: [&Path; 2], settings: &Settings) -> io::Result<Comparison> {
     let names = [tables(folders[0])?, tables(folders[1])?];
-    let status = [status(folders[0])?, status(folders[1])?];
+    let ends = [end_of(folders[0])?, end_of(folders[1])?];
+    let status = ends.each_ref().map(|end| end.as_ref().map(|end| end.status.clone()));
     for (side, folder) in folders.into_iter().enumerate() {
         if names[side].is_empty() && status[side].is_none() {
             return Err(at(folder, io::Error::other("no results: neither a table nor result.json")));
@@ -182,7 +183,8 @@ pub fn compare(folders: [&Path; 2], settings: &Settings) -> io::Result<Compariso
         });
     }
 
-    let by_step = turns(folders[0])? || turns(folders[1])?;
+    let move_displacements = ends.iter().flatten().filter(|end| end.by_displacement).count() == 2;
+    let by_step = move_displacements || turns(folders[0])? || turns(folders[1])?;
     let mut compared = Vec::new();
     let mut only: [Vec<String>; 2] = Default::default();
     let chosen = |file: &str, column: &str| settings.takes(file, column);
@@ -322,16 +324,24 @@ fn tables(folder: &Path) -> io::Result<BTreeSet<String>> {
     Ok(names)
 }
 
-/// The status of a run; `None` where it never came to write one.
-fn status(folder: &Path) -> io::Result<Option<String>> {
+/// The end of a run by its result.json.
+struct End {
+    status: String,
+    /// True where steps moved a displacement, and times are loads.
+    by_displacement: bool,
+}
+
+/// The end of a run; `None` where it never came to write one.
+fn end_of(folder: &Path) -> io::Result<Option<End>> {
     let path = folder.join("result.json");
     let text = match read_regular(&path) {
         Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
         read => read.map_err(|e| at(&path, e))?,
     };
     let result: serde_json::Value = serde_json::from_slice(&text).map_err(|e| at(&path, e.into()))?;
+    let by_displacement = result["by_displacement"] == true;
     match result["status"].as_str() {
-        Some(status) => Ok(Some(status.into())),
+        Some(status) => Ok(Some(End { status: status.into(), by_displacement })),
         None => Err(at(&path, io::Error::new(io::ErrorKind::InvalidData, "no status"))),
     }
 }
