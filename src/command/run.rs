@@ -11,6 +11,7 @@ use super::accuracy::{ChosenSettings, settle};
 use super::arguments::{MAX_THREADS, RunArgs};
 use super::checkpoints::{Checkpoints, CheckpointsWanted};
 use super::console::{complain, print, say, show};
+use super::estimate::alternative;
 use super::exit::Exit;
 use super::folder::{named_after, require_free};
 use super::load::{Loaded, Unfit, build, load, plan, prepare, too_large};
@@ -18,7 +19,7 @@ use super::memory::{Forecast, require_memory};
 use super::mesh_error::{Judged, of_file, tell_mesh_error};
 use super::resume::{checkpoint_in, checkpoint_origin, deck_digest, resume};
 use super::signals::{EndAtOnce, end_with_input, stop_on_signals};
-use super::stages::{StageRunner, StagesTold};
+use super::stages::{StageRunner, StagesTold, explained_stage};
 use super::verdict::{End, end, error_bars_in_words, line};
 use super::version::{VERSION, instructions};
 use super::watchers::{Watchers, stage_begins};
@@ -33,9 +34,9 @@ use results::result_json::{
     ReportedCounts, ReportedErrors, ReportedMasses, ReportedMesh, ReportedStepError, RunOrigin, RunResult, Sizes,
     Status, Timings, peak_memory_bytes,
 };
-use results::{Files, FolderLock, claim, listed, wanted};
+use results::{Files, FolderLock, claim, wanted};
 use solve::plan::Plan;
-use solve::plan::explain::{explain, mass_added};
+use solve::plan::explain::{Explanation, mass_added};
 use solve::system::System;
 use solve::{Counts, Outcome, Run, StepError};
 use study::LIFELINE;
@@ -68,6 +69,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     let (system, plan, warnings) = plan(&mut loaded, threads)?;
     if !args.quiet {
         show(&warnings, &loaded.source);
+        alternative(&loaded.model, threads).iter().for_each(|note| say(&format!("note: {note}")));
     }
     loaded.warnings.extend(warnings);
     let stop = Arc::new(AtomicBool::new(false));
@@ -89,7 +91,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
         threads,
         stop: &stop,
         began,
-        plan: explained(&loaded, (&plan, &system), chosen.as_ref()),
+        plan: Some(explained(&loaded, &plan, &system)),
         sizes: sizes(&loaded, plan.dofs.unknowns(), system.multipliers()),
         timings: Timings { read_s, pilots_s, plan_s: planning.elapsed().as_secs_f64(), ..Timings::default() },
     };
@@ -178,7 +180,7 @@ pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<CaseEn
         threads: 1,
         stop,
         began,
-        plan: only.map_or_else(|| explained(&loaded, (&plan, &system), chosen.as_ref()), |_| Vec::new()),
+        plan: only.is_none().then(|| explained(&loaded, &plan, &system)),
         sizes: sizes(&loaded, plan.dofs.unknowns(), system.multipliers()),
         timings: Timings { read_s, plan_s: planning.elapsed().as_secs_f64(), ..Timings::default() },
     };
@@ -252,22 +254,18 @@ fn use_threads(asked: Option<u8>) -> usize {
     threads
 }
 
-/// The plan in the lines that `check` prints, and the chosen settings.
-fn explained(loaded: &Loaded, (plan, system): (&Plan, &System), chosen: Option<&ChosenSettings>) -> Vec<String> {
-    let mut text = explain(plan, &loaded.model, system);
+/// True where steps move a displacement.
+fn moves_displacement(model: &Model) -> bool {
+    matches!(&model.analysis.step_length, StepLength::ArcLength(path) if path.increment.is_some())
+}
+
+/// The plan of the first stage.
+fn explained(loaded: &Loaded, plan: &Plan, system: &System) -> Explanation {
+    let mut text = explained_stage(&loaded.model, plan, system);
     if let (None, Some(scaling)) = (system.mass_scaling(), &loaded.mass_scaling) {
         text.computed.extend(mass_added(scaling));
     }
-    text.computed.push(("output", listed(&loaded.model, plan)));
-    let stages = loaded.model.analysis.stage.iter().flat_map(|_| stages_in_words(loaded));
-    let text = text.to_string();
-    let lines = stages.chain(text.lines().map(str::to_owned));
-    lines.chain(chosen.iter().flat_map(|chosen| chosen.lines())).collect()
-}
-
-/// The stages of a deck, a line for each; of a deck without stages that of the whole run.
-fn stages_in_words(loaded: &Loaded) -> Vec<String> {
-    loaded.models().into_iter().map(stage_begins).collect()
+    text
 }
 
 /// The number of threads without `--threads`: all cores, up to the limit of that option.
@@ -315,8 +313,8 @@ struct Job<'a> {
     threads: usize,
     stop: &'a AtomicBool,
     began: Instant,
-    /// The plan in words, line by line.
-    plan: Vec<String>,
+    /// The plan of the first stage; `None` where no files are kept.
+    plan: Option<Explanation>,
     sizes: Sizes,
     timings: Timings,
 }
@@ -342,7 +340,7 @@ impl Job<'_> {
         let log = if writes { self.begin(resumes)? } else { Log::unread() };
         let mut watchers = self.watchers(log, resumes, run)?;
         let looping = Instant::now();
-        let mut told = StagesTold::default();
+        let mut told = StagesTold { plan: self.plan.clone(), ..StagesTold::default() };
         let outcome = self.stages().run(run, checkpoint, (&mut watchers, &mut told))?;
         let whole = looping.elapsed();
         watchers.progress.finish();
@@ -381,7 +379,8 @@ impl Job<'_> {
             reason: end.reason.clone(),
             valid_until: end.valid_until,
             origin: self.origin(),
-            plan: self.plan.clone(),
+            plan: [self.plan_in_words(), std::mem::take(&mut told.plans)].concat(),
+            by_displacement: self.loaded.models().into_iter().any(moves_displacement),
             sizes: self.sizes,
             counts: counts(told.counts, told.failed),
             timings: self.timings_of(told.observing, whole),
@@ -422,7 +421,7 @@ impl Job<'_> {
         }
         claim(self.folder, self.overwrite, &self.loaded.models(), &self.loaded.files())?;
         let mut log = Log::open(self.folder, false)?;
-        log.say(&[&self.origin().lines()[..], &self.plan].concat().join("\n"))?;
+        log.say(&[self.origin().lines(), self.plan_in_words()].concat().join("\n"))?;
         self.warnings_of_deck().try_for_each(|warning| log.warn(warning))?;
         Ok(log)
     }
@@ -445,6 +444,16 @@ impl Job<'_> {
     }
 
     /// The runner of the stages of the deck.
+    /// The plan in the lines that `check` prints, after a line for each stage, and the chosen settings.
+    fn plan_in_words(&self) -> Vec<String> {
+        let models = self.plan.iter().flat_map(|_| self.loaded.models());
+        let stages = models.filter(|model| model.analysis.stage.is_some()).map(stage_begins);
+        let text = self.plan.as_ref().map(Explanation::to_string).unwrap_or_default();
+        let chosen = self.chosen.filter(|_| self.plan.is_some());
+        let lines = stages.chain(text.lines().map(str::to_owned));
+        lines.chain(chosen.iter().flat_map(|chosen| chosen.lines())).collect()
+    }
+
     fn stages(&self) -> StageRunner<'_> {
         StageRunner { loaded: self.loaded, threads: self.threads, stop: self.stop }
     }

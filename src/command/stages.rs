@@ -15,8 +15,9 @@ use base::snapshot::{Keep, Snapshot, keep};
 use mechanics::state::State;
 use model::{self, Model};
 use results::checkpoint::Checkpoint;
-use results::{settle_cadence, wanted};
+use results::{listed, settle_cadence, wanted};
 use solve::plan::Plan;
+use solve::plan::explain::{Explanation, explain};
 use solve::system::System;
 use solve::{Counts, Handover, Outcome, Run, StepError};
 
@@ -43,11 +44,35 @@ pub struct StagesTold {
     pub step_error: Option<StepError>,
     /// Says of a path that it ended before its `stop`.
     pub short: Option<String>,
+    /// The plan of the current stage; `None` where nobody reads it.
+    pub plan: Option<Explanation>,
+    /// The plans of later stages as far as they differ from those before, line by line.
+    pub plans: Vec<String>,
 }
 
 keep!(StagesTold {
     warnings, remarks, energy, counts, rotation_drift, joint_violation, failed, step_error, short,
-} without { observing });
+} without { observing, plan, plans });
+
+impl StagesTold {
+    /// Notes the plan of the next stage, and returns its lines as far as they differ from those before; none where nobody reads them.
+    fn explain(&mut self, model: &Model, plan: &Plan, system: &System) -> Vec<String> {
+        let Some(before) = &mut self.plan else { return Vec::new() };
+        let text = explained_stage(model, plan, system);
+        let lines: Vec<String> = text.beyond(before).to_string().lines().map(str::to_owned).collect();
+        self.plans.push(stage_begins(model));
+        self.plans.extend_from_slice(&lines);
+        *before = text;
+        lines
+    }
+}
+
+/// The plan of a stage, with its output.
+pub fn explained_stage(model: &Model, plan: &Plan, system: &System) -> Explanation {
+    let mut text = explain(plan, model, system);
+    text.computed.push(("output", listed(model, plan)));
+    text
+}
 
 /// A stage that has come to its end before a checkpoint.
 #[derive(Debug, Default)]
@@ -225,7 +250,7 @@ impl StageRunner<'_> {
                 Next::Stage(stage) => *stage,
                 Next::End(outcome) => return Ok(outcome),
             };
-            let plan = self.begin(&mut model, &system, &course, watchers)?;
+            let plan = self.begin(&mut model, &system, &course, (watchers, told))?;
             let made = Run::new(&model, &system, &plan, wanted(&model), self.stop);
             let mut run = made.map_err(|error| io::Error::other(error.to_string()))?;
             run.go_on_from(handover);
@@ -274,11 +299,21 @@ impl StageRunner<'_> {
     }
 
     /// Plans a stage and lets the watchers know, unless it lies before a checkpoint.
-    fn begin(&self, model: &mut Model, system: &System, course: &Course, watchers: &mut Watchers) -> io::Result<Plan> {
+    fn begin(
+        &self,
+        model: &mut Model,
+        system: &System,
+        course: &Course,
+        (watchers, told): (&mut Watchers, &mut StagesTold),
+    ) -> io::Result<Plan> {
         let plan = Plan::new(model, system, self.threads);
         settle_cadence(model, &plan);
+        let lines = told.explain(model, &plan, system);
         match course.checkpoint {
-            None => watchers.next_stage(model)?,
+            None => {
+                watchers.next_stage(model)?;
+                lines.iter().try_for_each(|line| watchers.log.say(line))?;
+            }
             Some(_) => watchers.expectations.next_stage(model),
         }
         Ok(plan)
@@ -312,7 +347,7 @@ impl StageRunner<'_> {
             if !model.analysis.has_modes() {
                 return Ok(Next::Stage(Box::new(NextStage { model, system, handover })));
             }
-            let plan = self.begin(&mut model, &system, course, watchers)?;
+            let plan = self.begin(&mut model, &system, course, (watchers, told))?;
             let made = Run::new(&model, &system, &plan, wanted(&model), self.stop);
             let mut modes = made.map_err(|error| io::Error::other(error.to_string()))?;
             modes.go_on_from(handover);

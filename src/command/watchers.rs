@@ -145,14 +145,16 @@ impl Observer for Watchers {
         // The tables of the checkpoint are about to go.
         self.checkpoints.iter_mut().try_for_each(Checkpoints::withdraw)?;
         self.log.sum_up()?;
-        self.log.say(&match model.analysis.begin {
+        let why = match model.analysis.begin {
             0.0 => "the steps leave more error than error_tolerance: the run begins again at t = 0, with shorter steps"
                 .to_owned(),
             begin => format!(
                 "the steps leave more error than error_tolerance: the stage begins again at t = {}, with shorter steps",
                 instant(begin)
             ),
-        })?;
+        };
+        self.log.say(&why)?;
+        self.progress.begin_again(&why);
         self.expectations.restart(model)?;
         self.bars.iter_mut().try_for_each(|bars| bars.restart(model))?;
         self.files.restart(model)

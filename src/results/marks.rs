@@ -2,9 +2,9 @@
 
 use base::math::Vec3;
 use mechanics::sections::SectionOutline;
-use model::{JointOrigin, Model};
+use model::{JointOrigin, Model, Part};
 use serde::{Deserialize, Serialize};
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 /// The largest number of marks of a kind: a page with more is a page of arrows.
 const MOST: usize = 2000;
@@ -21,6 +21,9 @@ pub struct SceneMarks {
     pub loads: Vec<([f64; 3], [f64; 6])>,
     /// Places of joints.
     pub joints: Vec<[f64; 3]>,
+    /// Named points that follow each other along beams and bars, for pages of runs without files of fields.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<[String; 2]>,
     /// Sections of beams by their names: the least and the largest y and z from the axis, or a radius.
     pub beams: BTreeMap<String, SectionSize>,
 }
@@ -76,6 +79,9 @@ impl SceneMarks {
                 marks.beams.extend(size.map(|size| (part.name().to_owned(), size)));
             }
         }
+        let without_fields = models.iter().filter(|model| model.output.fields.is_none());
+        marks.members = without_fields.flat_map(|model| members(model)).collect::<BTreeSet<_>>().into_iter().collect();
+        marks.members.truncate(MOST);
         let all = models.first().map_or(0, |model| model.nodes.len());
         let everywhere = (0..6).filter(|dof| {
             let count = supports.values().filter(|(_, dofs)| dofs & 1 << dof != 0).count();
@@ -88,6 +94,24 @@ impl SceneMarks {
         joints.truncate(MOST);
         SceneMarks { joints, ..marks }
     }
+}
+
+/// The labels of named nodes that follow each other along beams and bars.
+fn members(model: &Model) -> Vec<[String; 2]> {
+    let mut members = Vec::new();
+    for part in model.parts.iter().filter(|part| matches!(part, Part::Beam(_) | Part::Bar(_))) {
+        let (mut from, mut end) = (None, None);
+        for element in 0..part.elements() {
+            let nodes = part.nodes(element);
+            from = from.filter(|_| end == nodes.first().copied());
+            for &node in nodes.iter().filter(|node| model.nodes[**node].named) {
+                let pair = from.replace(node).filter(|from| *from != node).map(|from| [from, node]);
+                members.extend(pair.map(|ends| ends.map(|node| model.nodes[node].label.clone())));
+            }
+            end = nodes.last().copied();
+        }
+    }
+    members
 }
 
 /// The nodes and directions that supports hold or move. Nodes that drive joints are none of the scene's.

@@ -17,6 +17,9 @@ pub struct Progress {
     iterations: usize,
     /// Cutbacks since the last accepted step.
     cutbacks: usize,
+    /// The number of runs that have begun, when there is more than one: "run 2, ".
+    run: String,
+    runs: usize,
 }
 
 impl Progress {
@@ -27,7 +30,17 @@ impl Progress {
             let bar = ProgressBar::with_draw_target(Some(LENGTH as u64), ProgressDrawTarget::stderr());
             bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
         });
-        Progress { bar, shown: Instant::now(), iterations: 0, cutbacks: 0 }
+        Progress { bar, shown: Instant::now(), iterations: 0, cutbacks: 0, run: String::new(), runs: 1 }
+    }
+
+    /// Says above the bar why another run begins, and counts it from here on. Without a bar it says nothing.
+    pub fn begin_again(&mut self, why: &str) {
+        self.runs += 1;
+        self.run = format!("run {}, ", self.runs);
+        if let Some(bar) = &self.bar {
+            bar.println(format!("note: {why}"));
+            bar.reset();
+        }
     }
 
     /// Clears the line for the next message.
@@ -48,7 +61,7 @@ impl Observer for Progress {
         }
         self.shown = Instant::now();
         let (time, end) = (frame.state.time, frame.model.analysis.end_time);
-        bar.set_message(format!("t = {time:.4e}  step {}  {} iterations", frame.step, self.iterations));
+        bar.set_message(format!("{}t = {time:.4e}  step {}  {} iterations", self.run, frame.step, self.iterations));
         bar.set_position((LENGTH * time / end) as u64);
         Ok(())
     }
@@ -57,7 +70,7 @@ impl Observer for Progress {
         self.cutbacks += 1;
         if let Some(bar) = &self.bar {
             let times = if self.cutbacks == 1 { "time" } else { "times" };
-            bar.set_message(format!("t = {time:.4e}  step shortened {} {times}", self.cutbacks));
+            bar.set_message(format!("{}t = {time:.4e}  step shortened {} {times}", self.run, self.cutbacks));
         }
     }
 }

@@ -76,9 +76,10 @@ impl Contents {
         }
         let mut notes = torn_tables(folder)?;
         notes.extend(histories.iter().map(History::left_out).filter(|note| !note.is_empty()));
-        let mut scene = scene(folder, &histories, &mut notes)?;
         // Results of an unfinished run, and older ones, have no marks.
-        if let (Some(scene), Ok(marks)) = (&mut scene, SceneMarks::deserialize(&result.json["marks"])) {
+        let marks = SceneMarks::deserialize(&result.json["marks"]).unwrap_or_default();
+        let mut scene = scene(folder, (&histories, &marks.members), &mut notes)?;
+        if let Some(scene) = &mut scene {
             scene.marks.add(marks, &scene.x0);
         }
         let over_time = histories.iter().find(|history| history.over == "time" && history.file != "modes.csv");
@@ -87,8 +88,16 @@ impl Contents {
     }
 }
 
+/// The note on a scene from tables alone.
+const WITHOUT_FIELDS: &str = "members are straight between their points, and shells and bodies are not drawn. The deck has no files of fields: \
+     `fields = { format = \"vtu\" }` in [output] shows them";
+
 /// The scene of the modes, else of the fields, else of the points; a note names omitted times.
-fn scene(folder: &Path, histories: &[History], notes: &mut Vec<String>) -> io::Result<Option<PageScene>> {
+fn scene(
+    folder: &Path,
+    (histories, members): (&[History], &[[String; 2]]),
+    notes: &mut Vec<String>,
+) -> io::Result<Option<PageScene>> {
     let scene = match grids::modes(folder)? {
         Some((scene, all)) => {
             let shown = scene.times.last().map_or(0.0, |time| time.floor());
@@ -101,9 +110,15 @@ fn scene(folder: &Path, histories: &[History], notes: &mut Vec<String>) -> io::R
             Some(Ok(scene)) if scene.is_seen() => Some(scene),
             Some(Err(reason)) => {
                 notes.push(reason);
-                points::scene(histories)
+                points::scene(histories, members)
             }
-            _ => points::scene(histories),
+            _ => {
+                let scene = points::scene(histories, members);
+                if scene.is_some() {
+                    notes.push(format!("scene: {WITHOUT_FIELDS}"));
+                }
+                scene
+            }
         },
     };
     if let Some(scene) = scene.as_ref().filter(|scene| scene.times.len() < scene.all) {

@@ -3,12 +3,13 @@
 
 use super::data::PageScene;
 use super::histories::History;
+use std::collections::HashMap;
 
 /// The largest number of times that are shown.
 const TIMES: usize = 150;
 
-/// The scene of nodes.csv and bodies.csv; `None` where there is neither.
-pub fn scene(histories: &[History]) -> Option<PageScene> {
+/// The scene of nodes.csv and bodies.csv, with lines between the names of `members`; `None` where there is neither table.
+pub fn scene(histories: &[History], members: &[[String; 2]]) -> Option<PageScene> {
     let find = |file: &str| histories.iter().find(|history| history.file == file && history.line(0, "x").is_some());
     let tables: Vec<&History> = ["nodes.csv", "bodies.csv"].into_iter().filter_map(find).collect();
     let first = *tables.first()?;
@@ -45,15 +46,18 @@ pub fn scene(histories: &[History]) -> Option<PageScene> {
         }
     }
     let numbered: Vec<Option<(&str, usize)>> = scene.labels.iter().map(|label| series(label)).collect();
-    for (i, pair) in numbered.windows(2).enumerate() {
-        if let [Some((a, m)), Some((b, n))] = pair
-            && a == b
-            && m + 1 == *n
-        {
-            scene.lines.extend([i as u32, i as u32 + 1]);
-            scene.line_cells.push(scene.kinds.len() as u32);
-            scene.kinds.push(0);
-        }
+    let follows = |i: &usize| match (numbered[*i], numbered[i + 1]) {
+        (Some((a, m)), Some((b, n))) => a == b && m + 1 == n,
+        _ => false,
+    };
+    let rows = (0..numbered.len().saturating_sub(1)).filter(follows).map(|i| [i, i + 1]);
+    let places: HashMap<&str, usize> = scene.labels.iter().map(String::as_str).zip(0..).collect();
+    let at = |name: &String| places.get(name.as_str()).copied();
+    let lines: Vec<[usize; 2]> = rows.chain(members.iter().filter_map(|[a, b]| Some([at(a)?, at(b)?]))).collect();
+    for line in lines {
+        scene.lines.extend(line.map(|point| point as u32));
+        scene.line_cells.push(scene.kinds.len() as u32);
+        scene.kinds.push(0);
     }
     Some(scene)
 }
