@@ -18,6 +18,8 @@ pub struct Section {
     pub profile: Maybe<String>,
     /// Unit of length of the deck, "m", "cm", "mm", "in" or "ft", in which the dimensions of `profile` are taken. Default: that of `units`.
     pub unit: Maybe<String>,
+    /// Mass per length besides that of the material, such as floors, cladding and contents, 0 or more; it lies on the axis. Default: 0.
+    pub added_mass: Maybe<f64>,
     /// Thickness of the cover round `core`, above 0, of shape "rectangle" or "circle".
     pub cover: Maybe<f64>,
     /// Name of a material of model "concrete" within `cover`, such as concrete that hoops confine. Default: the material of the beam throughout.

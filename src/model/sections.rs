@@ -144,7 +144,9 @@ impl<'a, 'd> Sections<'a, 'd> {
             Some(made_of) if is_composite(section) => self.with_bars(made, (name, made_of), needs_mass, report),
             _ => Some(made),
         });
+        let added = added_mass(section, report);
         let index = made.map(|(stiffness, stresses)| {
+            let stiffness = stiffness.with_mass_on_axis(added);
             self.stresses.push(stresses);
             self.stiffnesses.push(if shear { stiffness } else { stiffness.without_shear() });
             self.stiffnesses.len() - 1
@@ -190,13 +192,15 @@ impl<'a, 'd> Sections<'a, 'd> {
         let materials = polygon_materials(polygons, made_of, self.materials, needs_mass, report);
         let settings = PolygonSettings { axis, mesh_size };
         let made = materials.and_then(|materials| meshed_section(section, polygons, &materials, settings, report));
+        let added = added_mass(section, report);
         let number = made.map(|made| {
+            let stiffness = made.stiffness.clone().with_mass_on_axis(added);
             let (name, material) = (name.value.clone(), made_of.map(|made_of| made_of.value.clone()));
             if self.facts.iter().all(|known| (&known.name, &known.material) != (&name, &material)) {
                 self.facts.push(SectionFacts { name, material, ..made.facts.clone() });
             }
             self.stresses.push(made.stresses.clone());
-            self.stiffnesses.push(if shear { made.stiffness.clone() } else { made.stiffness.without_shear() });
+            self.stiffnesses.push(if shear { stiffness } else { stiffness.without_shear() });
             self.stiffnesses.len() - 1
         });
         self.known.insert(key, number);
@@ -277,6 +281,10 @@ impl<'a, 'd> Sections<'a, 'd> {
         if a.polygons.is_some() || b.polygons.is_some() {
             return Some("polygons");
         }
+        // Dimensions determine the mass of the material alone.
+        if a.added_mass.is_some() || b.added_mass.is_some() {
+            return Some("added_mass");
+        }
         a.values.differs(&b.values, UNUSED)
     }
 
@@ -337,6 +345,11 @@ fn cross_section<'d>(
         let factor = shear_factor(given);
         Some(((kind.make.read)(given, needs_mass)?, factor))
     })
+}
+
+/// The mass per length of a section besides that of its material.
+fn added_mass<'d>(section: &'d At<OneOf<words::Section>>, report: &mut Report<'d>) -> f64 {
+    report.not_negative("added_mass", &section.added_mass, 0.0)
 }
 
 fn stiffness<'d>(

@@ -163,23 +163,39 @@ impl Stiffness {
             return self.clone();
         }
         let between = |a: Mat3, b: Mat3| a + part * (b - a);
-        let mass = |of: &Stiffness| {
-            let [y, z] = of.mass_center;
-            let c = Vec3::new(0.0, y, z);
-            (of.mass_per_length * c, of.inertia_per_length - of.mass_per_length * skew(&c) * skew(&c))
-        };
-        let ((first, about_axis), (other_first, other_about)) = (mass(self), mass(other));
+        let ((first, about_axis), (other_first, other_about)) = (self.moments_of_mass(), other.moments_of_mass());
         let mass_per_length = self.mass_per_length + part * (other.mass_per_length - self.mass_per_length);
-        let first = first + part * (other_first - first);
-        let c = if mass_per_length > 0.0 { first / mass_per_length } else { Vec3::zeros() };
-        Stiffness {
+        let stiffness = Stiffness {
             N: between(self.N, other.N),
             M: between(self.M, other.M),
             NM: between(self.NM, other.NM),
-            mass_per_length,
-            mass_center: [c.y, c.z],
-            inertia_per_length: between(about_axis, other_about) + mass_per_length * skew(&c) * skew(&c),
+            ..self.clone()
+        };
+        stiffness.with_mass(mass_per_length, (first + part * (other_first - first), between(about_axis, other_about)))
+    }
+
+    /// The section with more mass per length on its axis, which has no inertia about it.
+    pub fn with_mass_on_axis(self, mass_per_length: f64) -> Stiffness {
+        if mass_per_length == 0.0 {
+            return self;
         }
+        let moments = self.moments_of_mass();
+        let sum = self.mass_per_length + mass_per_length;
+        self.with_mass(sum, moments)
+    }
+
+    /// The first and the second moment of the mass per length about the axis.
+    fn moments_of_mass(&self) -> (Vec3, Mat3) {
+        let [y, z] = self.mass_center;
+        let c = Vec3::new(0.0, y, z);
+        (self.mass_per_length * c, self.inertia_per_length - self.mass_per_length * skew(&c) * skew(&c))
+    }
+
+    /// The section with this mass per length, and these moments about the axis.
+    fn with_mass(self, mass_per_length: f64, (first, about_axis): (Vec3, Mat3)) -> Stiffness {
+        let c = if mass_per_length > 0.0 { first / mass_per_length } else { Vec3::zeros() };
+        let inertia_per_length = about_axis + mass_per_length * skew(&c) * skew(&c);
+        Stiffness { mass_per_length, mass_center: [c.y, c.z], inertia_per_length, ..self }
     }
 
     /// Vector from the axis to the centre of mass, global components, where the columns of `frame` are the section axes; `None` of a centred mass, or of none.

@@ -22,6 +22,11 @@ fn cantilever() {
     let error = off(&omegas(&found), &exact[..8]);
     println!("cantilever: {error:e}");
     assert!(error < 2e-5, "{error:e}");
+    // Three times its own mass besides halves all frequencies.
+    let added = format!("[sections.s]\nadded_mass = {:?}\n", 3.0 * RHO * 2e-6);
+    let halves = omegas(&modes(&text.replacen("[sections.s]\n", &added, 1)));
+    let error = off(&halves.iter().map(|omega| 2.0 * omega).collect::<Vec<_>>(), &exact[..8]);
+    assert!(error < 2e-5, "{error:e}");
     // Published effective masses of the first modes: 0.6131, 0.1883, 0.0647, 0.0331 of the beam's own.
     let mass = RHO * 2e-6 * 2.0;
     assert!((found.masses[2] / mass - 1.0).abs() < 1e-12, "{:?}", found.masses);
