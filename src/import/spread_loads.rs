@@ -29,6 +29,7 @@ fn value_of(line: &SpreadLine) -> GivenValue {
 
 /// Adds all distributed loads.
 pub fn spread_loads(build: &mut Build) {
+    (0..build.im.steps.list.len()).for_each(|step| join_gravity(build, step));
     for step in build.im.steps.list.clone() {
         let all = step.spread.iter().map(|line| (format!("{:?}", key(line)), value_of(line)));
         refuse_two_laws(build, all);
@@ -66,6 +67,29 @@ pub fn spread_loads(build: &mut Build) {
         if let Some(line) = lines.get(&of) {
             one(build, line, &law, (&[given.line], &[]));
         }
+    }
+}
+
+/// Joins the gravity of several sets. They must lie apart, and hold everything with mass together.
+fn join_gravity(build: &mut Build, step: usize) {
+    let is_gravity = |line: &SpreadLine| line.kind == "GRAV" && !line.is_surface;
+    let lines: Vec<SpreadLine> =
+        build.im.steps.list[step].spread.iter().filter(|line| is_gravity(line)).cloned().collect();
+    let [first, others @ ..] = &lines[..] else { return };
+    let law = |line: &SpreadLine| (line.values.clone(), line.amplitude.clone(), line.is_imaginary);
+    if others.is_empty() || lines.iter().any(|line| law(line) != law(first) || line.target.name.is_empty()) {
+        return;
+    }
+    let mut cells = BTreeSet::new();
+    let lie_apart = lines.iter().all(|line| build.cells(&line.target).into_iter().all(|cell| cells.insert(cell)));
+    if !lie_apart || has_mass_beside(build, &cells) {
+        return;
+    }
+    let spread = &mut build.im.steps.list[step].spread;
+    spread.retain(|line| !is_gravity(line) || line.line == first.line);
+    spread.iter_mut().filter(|line| is_gravity(line)).for_each(|line| line.target.name.clear());
+    for other in others {
+        build.im.ignore(other.line, &format!("the gravity of line {} acts on all sets", first.line));
     }
 }
 
@@ -248,7 +272,8 @@ fn gravity(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history)
     let Some(direction) = Vec3::new(of(1), of(2), of(3)).try_normalize(0.0) else {
         return build.im.refuse(line.line, "GRAV needs the direction behind its magnitude");
     };
-    if !line.target.name.is_empty() && has_mass_beside(build, &line.target) {
+    let cells = cells_of(build, line);
+    if has_mass_beside(build, &cells) {
         let why = "gravity acts on everything in rdsolve, and this set does not hold all that has mass";
         return build.im.refuse(line.line, why);
     }
@@ -270,12 +295,19 @@ fn gravity(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history)
     });
 }
 
-/// True where something that has mass is in no element of this set.
-fn has_mass_beside(build: &mut Build, target: &NamedTarget) -> bool {
-    let cells: BTreeSet<usize> = build.cells(target).into_iter().collect();
+/// The elements of a load; all for one without a target.
+fn cells_of(build: &mut Build, line: &SpreadLine) -> BTreeSet<usize> {
+    match line.target.name.is_empty() {
+        true => (0..build.mesh.cells.len()).collect(),
+        false => build.cells(&line.target).into_iter().collect(),
+    }
+}
+
+/// True if mass lies outside these elements.
+fn has_mass_beside(build: &Build, cells: &BTreeSet<usize>) -> bool {
     let is_beside = |at: &usize| !cells.contains(at);
     let mut heavy = build.pieces.iter().filter(|piece| piece.density > 0.0);
-    point_masses(build).iter().any(is_beside) || heavy.any(|piece| !piece.cells.is_subset(&cells))
+    point_masses(build).iter().any(is_beside) || heavy.any(|piece| !piece.cells.is_subset(cells))
 }
 
 /// Elements that are point masses.
@@ -309,7 +341,8 @@ fn rotation(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history
         keys.push(("about", vector(&about)));
     }
     let mut table = DeckTable::new("loads", 0).with_lines(lines.iter().copied());
-    if !line.target.name.is_empty() && has_mass_beside(build, &line.target) {
+    let cells = cells_of(build, line);
+    if has_mass_beside(build, &cells) {
         let cells: BTreeSet<usize> = build.cells(&line.target).into_iter().collect();
         let inside = build.pieces.iter().filter(|piece| piece.cells.is_subset(&cells));
         let mut names: Vec<String> = inside.flat_map(|piece| piece.names.clone()).collect();

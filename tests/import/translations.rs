@@ -81,6 +81,10 @@ fn gravity_beside_masses() {
         |set: &str| format!("{HEAD}{mass}{ROOT}{}", load_step(&format!("*DLOAD\n{set}, GRAV, 9.81, 0., 0., -1.")));
     refuses(&gravity("rod"), "does not hold all that has mass");
     has(&gravity(""), "gravity = [0.0, 0.0, -9.81]\n");
+    // Two sets that hold all that has mass, and no element twice.
+    has(&gravity("rod, GRAV, 9.81, 0., 0., -1.\nw"), "gravity = [0.0, 0.0, -9.81]\n");
+    refuses(&gravity("rod, GRAV, 9.81, 0., 0., -1.\nrod"), "does not hold all that has mass");
+    refuses(&gravity("rod, GRAV, 9., 0., 0., -1.\nw"), "does not hold all that has mass");
 }
 
 #[test]
