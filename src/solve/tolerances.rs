@@ -783,6 +783,8 @@ pub mod gyroscopic {
     pub const SYMMETRIC: f64 = 1e-9;
     /// Part of a mode's kinetic energy across the axis of a rotation below which its Coriolis forces change the frequency by no more than such a part.
     pub const ACROSS: f64 = 1e-3;
+    /// Least difference between the spins of the ends of an element, as a part of the faster one, that is no rounding of given numbers.
+    pub const UNEVEN: f64 = 1e-3;
 }
 
 pub mod pencil {

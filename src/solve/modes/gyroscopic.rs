@@ -7,8 +7,10 @@ use super::linearized::Linearized;
 use super::mode::EigenMode;
 use super::spinning_parts::spinning_parts;
 use crate::system::{ConsistentMass, dependents};
-use crate::tolerances::gyroscopic::{ORBIT, SAG, SYMMETRIC};
+use crate::tolerances::gyroscopic::{ORBIT, SAG, SYMMETRIC, UNEVEN};
 use base::math::{Mat3, Mat6, Vec3, angular, linear, skew};
+use base::names::short;
+use model::Part;
 use std::collections::BTreeMap;
 
 /// The rows and columns of two nodes.
@@ -74,6 +76,7 @@ impl Gyroscopic {
             part.visit(&mut |ends, of| sums.add(ends, of));
             gyroscopic.warnings.extend(part.warning);
         }
+        gyroscopic.warnings.extend(at.model.parts.iter().filter_map(|part| uneven_spin(at, part)));
         let rows = |node: usize| std::array::from_fn(|dof| at.plan.dofs.row(node, dof));
         gyroscopic.blocks = sums.of.into_iter().map(|(ends, of)| (ends.map(rows), of)).collect();
         gyroscopic.warnings.dedup();
@@ -139,6 +142,29 @@ impl Gyroscopic {
             }
         }
     }
+}
+
+/// A warning for a beam with different spins at the ends of an element. No steady motion has them.
+fn uneven_spin(at: &Linearized, part: &Part) -> Option<String> {
+    let is_beam = matches!(part, Part::Beam(_));
+    (0..if is_beam { part.elements() } else { 0 }).find_map(|element| {
+        let &[first, .., last] = part.nodes(element) else { return None };
+        let axis = (at.model.nodes[last].x - at.model.nodes[first].x).try_normalize(0.0)?;
+        let ends = [first, last].map(|node| at.root(node).0);
+        let spins = ends.map(|node| at.state.nodes[node].omega.dot(&axis));
+        let fastest = spins.map(f64::abs).into_iter().fold(0.0, f64::max);
+        let is_uneven = (spins[1] - spins[0]).abs() > UNEVEN * fastest && at.spins(&(fastest * axis));
+        is_uneven.then(|| {
+            let [from, to] = ends.map(|node| &at.model.nodes[node].label);
+            format!(
+                "`{}` spins at {} rad per unit of time at `{from}` and at {} at `{to}`: modes omit the torsion that this causes. Give all of it one \
+                 `angular_velocity`",
+                part.name(),
+                short(spins[0]),
+                short(spins[1])
+            )
+        })
+    })
 }
 
 /// An angular velocity turned to the principal axis beside it. Sag turns that axis from the spin.
