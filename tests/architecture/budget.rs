@@ -6,7 +6,7 @@ use super::source::{CRATES, lines_below};
 const BUDGET: [(&str, usize); 11] = [
     ("base", 7020),
     ("linear", 4270),
-    ("mechanics", 36_830),
+    ("mechanics", 36_955),
     ("deck", 5480),
     ("import", 11_530),
     ("model", 29_260),

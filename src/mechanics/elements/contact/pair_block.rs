@@ -148,12 +148,16 @@ pub trait PairBlock: ElementBlock {
 
 /// Subtracts the internal forces of all pairs from `F`, which is indexed by node.
 pub(super) fn subtract_forces(block: &impl PairBlock, now: &Configuration, F: &mut [Force]) {
+    block.each_action(now, &mut |action| subtract_action(action, F));
+}
+
+/// Subtracts the internal forces of a pair.
+pub(super) fn subtract_action(action: &PairAction, F: &mut [Force]) {
     // Internal forces are opposite to the acting forces.
-    let mut subtract = |node: usize, f: Vec3, m: Vec3| {
+    action.spread(|node, f, m| {
         subtract(&mut F[node], 0, &-f);
         subtract(&mut F[node], 3, &-m);
-    };
-    block.each_action(now, &mut |action| action.spread(&mut subtract));
+    });
 }
 
 /// The energy of the springs of all pairs.

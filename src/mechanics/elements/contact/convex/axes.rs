@@ -72,7 +72,7 @@ impl PolyhedronPose<'_> {
         const NEXT: [[usize; 2]; 3] = [[1, 2], [2, 0], [0, 1]];
         for (i, [i1, i2]) in NEXT.into_iter().enumerate() {
             for (j, [j1, j2]) in NEXT.into_iter().enumerate() {
-                let length = Q[(i1, j)].hypot(Q[(i2, j)]);
+                let length = (Q[(i1, j)] * Q[(i1, j)] + Q[(i2, j)] * Q[(i2, j)]).sqrt();
                 // Edges that are parallel have the plane of two faces between them.
                 if length <= 1e-6 {
                     continue;

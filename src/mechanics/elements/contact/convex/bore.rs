@@ -4,7 +4,7 @@
 //! for the weight r from the apex outward. Polynomials of third degree are exact over straight pieces, and exact to rounding over quarter
 //! arcs.
 
-use super::overlap::ClippedFace;
+use super::overlap::{ClippedFace, MOST_CORNERS};
 use base::math::Vec3;
 use base::math::quadrature::gauss;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -58,8 +58,9 @@ impl Bore {
     }
 
     /// Calls `act` with points around the part of a face inside: the ends of its straight pieces, or the centre of a whole ellipse.
-    pub fn each_corner<const CORNERS: usize>(&self, face: &ClippedFace<CORNERS>, mut act: impl FnMut(Vec3)) {
-        let (corners, mut is_cut) = (face.corners(), false);
+    pub fn each_corner(&self, face: ClippedFace, mut act: impl FnMut(Vec3)) {
+        let mut room = [Vec3::zeros(); MOST_CORNERS];
+        let (corners, mut is_cut) = (&*copied(face, &mut room), false);
         for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
             if let Some(span) = self.span(from, to) {
                 is_cut = true;
@@ -72,19 +73,18 @@ impl Bore {
     }
 
     /// Calls `act` with the points of the rule and their areas, over the part of a face inside.
-    pub fn each_point<const CORNERS: usize>(&self, face: &ClippedFace<CORNERS>, mut act: impl FnMut(Vec3, f64)) {
-        let (mut turned, normal) = ([Vec3::zeros(); CORNERS], face.normal);
-        let corners = &mut turned[..face.corners().len()];
-        corners.copy_from_slice(face.corners());
+    pub fn each_point(&self, face: ClippedFace, mut act: impl FnMut(Vec3, f64)) {
+        let (mut room, normal) = ([Vec3::zeros(); MOST_CORNERS], face.normal);
+        let corners = copied(face, &mut room);
         let area = twice_area(corners, &normal);
-        // A triangle that closes a torn face may be clockwise; its area then is negative.
+        // Rounding may turn a face that is hardly wider than a line round; its area then is negative.
         if area < 0.0 {
             corners.reverse();
         }
         let sign = if area < 0.0 { -1.0 } else { 1.0 };
         let mut act = |x: Vec3, area: f64| act(x, sign * area);
         let corners = &*corners;
-        let mut pieces = [[Vec3::zeros(); 2]; CORNERS];
+        let mut pieces = [[Vec3::zeros(); 2]; MOST_CORNERS];
         let mut count = 0;
         for (k, from) in corners.iter().enumerate() {
             let to = &corners[(k + 1) % corners.len()];
@@ -167,6 +167,16 @@ impl Bore {
             }
         }
     }
+}
+
+/// The corners of a face in a row.
+fn copied<'r>(face: ClippedFace, room: &'r mut [Vec3; MOST_CORNERS]) -> &'r mut [Vec3] {
+    let mut count = 0;
+    for (room, corner) in room.iter_mut().zip(face.corners()) {
+        *room = corner;
+        count += 1;
+    }
+    &mut room[..count]
 }
 
 /// Twice the area of a polygon, below zero where it goes clockwise about the normal.

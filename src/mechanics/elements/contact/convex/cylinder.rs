@@ -18,10 +18,10 @@ use base::math::cylinder::RoundCylinder;
 use base::math::polyhedron::{Polyhedron, SolidMoments};
 use base::math::{Mat3, Vec3, angular, linear, stack};
 
-/// Most corners of a face, and most faces, of the solid common to a cylinder and a box, most hulls, or the side of another cylinder.
-const FEW: (usize, usize) = (24, 28);
+/// Most faces, and room for points, of the solid common to a cylinder and a box, most hulls, or the side of another cylinder.
+const FEW: (usize, usize) = (28, 96);
 /// Room for other pairs.
-const MANY: (usize, usize) = (40, 128);
+const MANY: (usize, usize) = (128, 255);
 
 /// A cylinder and something else, in the axes of the cylinder.
 pub(super) struct CylinderPose<'a> {
@@ -160,15 +160,15 @@ impl<'a> CylinderPose<'a> {
         few.or_else(|| self.by_moments::<{ MANY.0 }, { MANY.1 }>((&origin, &toward))).flatten()
     }
 
-    /// The depth along this axis, in coordinates about an origin, with room for CORNERS and FACES; `None` if that is too small.
-    fn by_moments<const CORNERS: usize, const FACES: usize>(
+    /// The depth along this axis, in coordinates about an origin, with room for FACES and POINTS; `None` if that is too small.
+    fn by_moments<const FACES: usize, const POINTS: usize>(
         &self,
         (origin, along): (&Vec3, &Vec3),
     ) -> Option<Option<Depth>> {
         let half = self.cylinder.half();
         let (y, Q) = (self.y - origin, &self.Q);
         let (mut faces, goes_along) = match self.against {
-            Against::Polyhedron(polyhedron) => (Faces::<CORNERS, FACES>::of(polyhedron, &y, Q)?, false),
+            Against::Polyhedron(polyhedron) => (Faces::<FACES, POINTS>::of(polyhedron, &y, Q)?, false),
             Against::Cylinder(other) => {
                 let outline = self.two(other).outline(along);
                 (Faces::of_prism(&outline, other.half(), &y, Q)?, !outline.is_fixed)
@@ -188,9 +188,9 @@ impl<'a> CylinderPose<'a> {
     }
 
     /// The depth by the plane faces of the common solid.
-    fn of_faces<const CORNERS: usize, const FACES: usize>(
+    fn of_faces<const FACES: usize, const POINTS: usize>(
         &self,
-        faces: &Faces<CORNERS, FACES>,
+        faces: &Faces<FACES, POINTS>,
         origin: &Vec3,
     ) -> Option<Depth> {
         let bore = Bore::new(self.cylinder.radius(), origin);

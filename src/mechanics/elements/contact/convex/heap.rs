@@ -57,24 +57,16 @@ impl ConvexHeap {
         &history[e * width..(e + 1) * width]
     }
 
-    /// The other solid in a slot of a solid's history, and the memory of the pair.
-    pub(super) fn slot<'a>(&self, history: &'a [f64], slot: usize) -> (Option<usize>, PairMemory<'a>) {
-        let memory = PairMemory(&history[slot * self.width..(slot + 1) * self.width]);
-        ((memory.key() > 0.0).then(|| memory.key() as usize - 1), memory)
-    }
-
-    /// The slot of a pair in the history of one.
-    pub(super) fn slot_of(&self, history: &[f64], other: usize) -> Option<usize> {
-        (0..SLOTS).find(|&slot| self.slot(history, slot).0 == Some(other))
+    /// The other solids in a solid's history with the memory of each pair. They fill the first slots, and the rest is zero.
+    pub(super) fn slots<'a>(&self, history: &'a [f64]) -> impl Iterator<Item = (usize, PairMemory<'a>)> + use<'a> {
+        let taken = history.chunks_exact(self.width).map(PairMemory).take_while(|memory| memory.key() > 0.0);
+        taken.map(|memory| (memory.key() as usize - 1, memory))
     }
 
     /// The memory of a pair; empty if it has no slot.
     pub(super) fn memory<'a>(&self, history: &'a [f64], e: usize, other: usize) -> PairMemory<'a> {
-        let own = self.of_solid(e, history);
-        match self.slot_of(own, other) {
-            Some(slot) => self.slot(own, slot).1,
-            None => PairMemory::NOTHING,
-        }
+        let slot = self.slots(self.of_solid(e, history)).find(|slot| slot.0 == other);
+        slot.map_or(PairMemory::NOTHING, |(_, memory)| memory)
     }
 
     /// For each solid the larger ones near it, at these positions of the nodes. Threads lock the lists in turn; the result does not depend

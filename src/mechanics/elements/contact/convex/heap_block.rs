@@ -4,13 +4,13 @@ use super::heap::{ConvexHeap, SLOTS};
 use super::pair::{ConvexPair, PairForce, PairKinematics};
 use super::steps::is_missed;
 use super::tangent::tangent;
-use super::update::update_pair;
+use super::update::update_near;
 use crate::elements::block::{Branches, Elements, Force, Mechanics, Moduli, Results};
 use crate::elements::contact::history::{PairMemory, PairMemoryMut};
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::near_lists::farthest;
 use crate::elements::contact::normal_motion::lost;
-use crate::elements::contact::pair_block::{PairAction, PairBlock, energy, subtract_forces};
+use crate::elements::contact::pair_block::{PairAction, PairBlock, energy, subtract_action, subtract_forces};
 use crate::elements::wandering::{Partners, Wandering};
 use crate::materials::Dissipation;
 use crate::state::{Configuration, Node};
@@ -36,6 +36,52 @@ impl ConvexHeap {
                 act(HeapTouch { pair, at, acting, old, numbers: [e, other] });
             }
         });
+    }
+
+    /// Writes the history of all pairs, and calls with each pair that touches.
+    fn advance_pairs(
+        &self,
+        now: &Configuration,
+        part: f64,
+        history: &mut [f64],
+        mut press: impl FnMut(&ConvexPair, &PairKinematics, &PairForce),
+    ) -> Dissipation {
+        let mut spent = Dissipation::default();
+        let width = SLOTS * self.width;
+        for own in history.chunks_exact_mut(width) {
+            let taken = self.slots(own).count();
+            own[..taken * self.width].fill(0.0);
+        }
+        let mut kept: usize = 0;
+        let mut last = usize::MAX;
+        self.each_near(now.nodes, self.margin, |e, other| {
+            let pair = self.pair(e, other);
+            let at = pair.kinematics(now.nodes);
+            let memorable = self.memorable(e);
+            let least = at.pose.least_axis_within(memorable);
+            if least.gap > memorable {
+                return;
+            }
+            let old = self.memory(now.history, e, other);
+            let acting = pair.force_along(&least, &at, old);
+            if let Some(acting) = &acting {
+                press(&pair, &at, acting);
+            }
+            if e != last {
+                (kept, last) = (0, e);
+            }
+            let own = &mut history[e * width..(e + 1) * width];
+            // With all slots taken, a touching pair replaces one that does not touch.
+            let free = || self.slots(own).position(|(_, memory)| memory.gap() > 0.0).filter(|_| least.gap <= 0.0);
+            let Some(slot) = Some(kept).filter(|&kept| kept < SLOTS).or_else(free) else { return };
+            let new = &mut own[slot * self.width..(slot + 1) * self.width];
+            new.fill(0.0);
+            spent += update_near((&self.law, &at, &least), acting.as_ref(), old, now, part, new);
+            PairMemoryMut(new).set_key((other + 1) as f64);
+            kept += 1;
+        });
+        spent += self.let_go(now, part, history);
+        spent
     }
 }
 
@@ -68,34 +114,11 @@ impl Mechanics for ConvexHeap {
     }
 
     fn update_history(&self, now: &Configuration, part: f64, history: &mut [f64]) -> Dissipation {
-        let mut spent = Dissipation::default();
-        history.fill(0.0);
-        let width = SLOTS * self.width;
-        let mut kept: usize = 0;
-        let mut last = usize::MAX;
-        self.each_near(now.nodes, self.margin, |e, other| {
-            let pair = self.pair(e, other);
-            let at = pair.kinematics(now.nodes);
-            let memorable = self.memorable(e);
-            let gap = at.pose.least_axis_within(memorable).gap;
-            if gap > memorable {
-                return;
-            }
-            if e != last {
-                (kept, last) = (0, e);
-            }
-            let own = &mut history[e * width..(e + 1) * width];
-            // With all slots taken, a touching pair replaces one that does not touch.
-            let free = || (0..SLOTS).find(|&slot| self.slot(own, slot).1.gap() > 0.0).filter(|_| gap <= 0.0);
-            let Some(slot) = Some(kept).filter(|&kept| kept < SLOTS).or_else(free) else { return };
-            let new = &mut own[slot * self.width..(slot + 1) * self.width];
-            new.fill(0.0);
-            spent += update_pair(&pair, &at, self.memory(now.history, e, other), now, part, new);
-            PairMemoryMut(new).set_key((other + 1) as f64);
-            kept += 1;
-        });
-        spent += self.let_go(now, part, history);
-        spent
+        self.advance_pairs(now, part, history, |_, _, _| ())
+    }
+
+    fn advance(&self, now: &Configuration, F: &mut [Force], new: &mut [f64]) -> Dissipation {
+        self.advance_pairs(now, 1.0, new, |pair, at, acting| subtract_action(&pair.action(at, acting), F))
     }
 }
 
@@ -124,7 +147,8 @@ impl PairBlock for ConvexHeap {
     }
 
     fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PairMemory) -> bool) -> bool {
-        history.chunks_exact(self.width).map(PairMemory).any(|old| old.is_known() && is(old))
+        let mut slots = history.chunks_exact(SLOTS * self.width).flat_map(|own| self.slots(own));
+        slots.any(|(_, old)| old.is_known() && is(old))
     }
 
     fn misses(&self, start: &[Node], now: &Configuration) -> bool {
@@ -145,7 +169,7 @@ impl PairBlock for ConvexHeap {
     }
 
     fn is_crowded(&self, now: &Configuration) -> bool {
-        let is_full = |e: usize| self.slot(self.of_solid(e, now.history), SLOTS - 1).0.is_some();
+        let is_full = |e: usize| self.slots(self.of_solid(e, now.history)).count() == SLOTS;
         if now.history.is_empty() || !(0..self.solids.len()).any(is_full) {
             return false;
         }
@@ -164,9 +188,8 @@ impl ConvexHeap {
         let mut spent = Dissipation::default();
         for e in 0..self.solids.len() {
             let (old, new) = (self.of_solid(e, now.history), self.of_solid(e, new));
-            for slot in 0..SLOTS {
-                let (Some(other), motion) = self.slot(old, slot) else { continue };
-                if motion.is_known() && self.slot_of(new, other).is_none() {
+            for (other, motion) in self.slots(old) {
+                if motion.is_known() && self.slots(new).all(|(kept, _)| kept != other) {
                     spent += lost(&self.law, motion, part * now.dt);
                 }
             }

@@ -2,9 +2,9 @@
 
 use super::depth::Depth;
 use super::memory::Memory;
-use super::pose::ConvexPose;
+use super::pose::{ConvexPose, LeastAxis};
 use super::rubbing::{Rubbing, rubbing};
-use super::touch::{SHALLOW, depth};
+use super::touch::{SHALLOW, depth_along};
 use crate::elements::contact::history::{self, PairMemory};
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::pair_block::{PairAction, PairSide};
@@ -150,7 +150,12 @@ impl<'a> ConvexPair<'a> {
 
     /// The force; `None` where the two are apart.
     pub fn force(&self, at: &PairKinematics, old: PairMemory) -> Option<PairForce> {
-        let depth = depth(&at.pose, self.law.touching)?;
+        self.force_along(&at.pose.least_axis_within(self.law.touching), at, old)
+    }
+
+    /// The force by the axis of the largest gap; `None` where the two are apart.
+    pub fn force_along(&self, least: &LeastAxis, at: &PairKinematics, old: PairMemory) -> Option<PairForce> {
+        let depth = depth_along(&at.pose, least, self.law.touching)?;
         let rate = depth.g.dot(&at.rates);
         let law = self.law;
         let inset = old.inset(law);

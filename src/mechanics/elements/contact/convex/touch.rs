@@ -13,7 +13,11 @@ pub const SHALLOW: f64 = 1e-8;
 
 /// The depth of convex solids that overlap or touch; `None` for a gap above `touching`.
 pub fn depth(pose: &ConvexPose, touching: f64) -> Option<Depth> {
-    let least = pose.least_axis_within(touching);
+    depth_along(pose, &pose.least_axis_within(touching), touching)
+}
+
+/// The depth by the axis of the largest gap.
+pub(super) fn depth_along(pose: &ConvexPose, least: &LeastAxis, touching: f64) -> Option<Depth> {
     if least.gap > touching {
         return None;
     }
@@ -21,17 +25,21 @@ pub fn depth(pose: &ConvexPose, touching: f64) -> Option<Depth> {
     if -least.gap >= shallow {
         return within(pose, &least.axis).or_else(|| Some(slab(pose, &least.axis, -least.gap)));
     }
-    let mut found = first_touch(pose, &least);
+    let mut found = first_touch(pose, least);
     found.D *= (-least.gap).max(0.0) / shallow;
     Some(found)
 }
 
 /// The negative depth of convex solids apart, extrapolated from their first touch along the separating axis.
-pub(super) fn approaching(pose: &ConvexPose) -> Depth {
-    let least = pose.least_axis();
-    let mut found = first_touch(pose, &least);
+pub(super) fn approaching(pose: &ConvexPose, least: &LeastAxis) -> Depth {
+    let mut found = first_touch(pose, least);
     found.D *= -least.gap / (SHALLOW * pose.size());
     found
+}
+
+/// The negative depth of convex solids apart as the gap along the separating axis.
+pub(super) fn gap_along(pose: &ConvexPose, least: &LeastAxis) -> Depth {
+    slab(pose, &least.axis, -least.gap)
 }
 
 /// The depth of two that are pushed into each other as little as the shape of their overlap allows.

@@ -2,7 +2,8 @@
 
 use super::memory::Memory;
 use super::pair::{ConvexPair, PairForce, PairKinematics};
-use super::touch::approaching;
+use super::pose::LeastAxis;
+use super::touch::{approaching, gap_along};
 use crate::elements::contact::history::{PairMemory, PairMemoryMut};
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::normal_motion::{
@@ -13,6 +14,9 @@ use crate::state::Configuration;
 use base::math::rotation::{exp, matrix};
 use base::math::{Vec3, angular, linear};
 
+/// Steps within which a pair must not be able to land for its approach to be that along the axis.
+const STEPS_AHEAD: f64 = 8.0;
+
 /// Writes the history of a pair, at `at` in `now`, after `part` of the way from the last state; returns the dissipation.
 pub(super) fn update_pair(
     pair: &ConvexPair,
@@ -22,32 +26,52 @@ pub(super) fn update_pair(
     part: f64,
     numbers: &mut [f64],
 ) -> Dissipation {
-    let law = pair.law;
-    let speed = linear(&at.rates).norm() + angular(&at.rates).norm() * at.pose.own.reach();
-    let mut new = PairMemoryMut(numbers);
-    if let Some(spent) = pass_over(law, (at.pose.apart(), speed), now, old, &mut new) {
+    if let Some(spent) = pass_over(pair.law, (at.pose.apart(), speed(at)), now, old, &mut PairMemoryMut(numbers)) {
         return spent;
     }
-    let acting = pair.force(at, old);
-    let (gap, rate) =
-        acting.as_ref().map_or_else(|| approach(at), |acting| (acting.inset - acting.depth.D, acting.rate));
-    let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
-    let inset = acting.as_ref().map_or(0.0, |acting| acting.inset);
+    let least = at.pose.least_axis();
+    let acting = pair.force_along(&least, at, old);
+    update_near((pair.law, at, &least), acting.as_ref(), old, now, part, numbers)
+}
+
+/// As [`update_pair`] for a pair that is near, by the axis of the largest gap and the force at `at`.
+pub(super) fn update_near(
+    (law, at, least): (&ContactLaw, &PairKinematics, &LeastAxis),
+    acting: Option<&PairForce>,
+    old: PairMemory,
+    now: &Configuration,
+    part: f64,
+    numbers: &mut [f64],
+) -> Dissipation {
+    let (mut new, speed) = (PairMemoryMut(numbers), speed(at));
+    // The last state before a landing counts. Where a state is a part of the way, states before leave traces in it.
+    let is_far = law.dynamic && part == 1.0 && now.dt > 0.0 && least.gap > STEPS_AHEAD * speed * now.dt;
+    let (gap, rate) = match acting {
+        Some(acting) => (acting.inset - acting.depth.D, acting.rate),
+        None => approach(at, least, is_far),
+    };
+    let force = acting.map_or(0.0, |acting| acting.normal.force);
+    let inset = acting.map_or(0.0, |acting| acting.inset);
     let motion = NormalMotion { gap, inset, rate, power: damping_power(law, gap, rate, force), speed };
     let (impact, inset) = update_normal(law, &motion, now, part, old, &mut new);
     let mut spent = Dissipation { impact, ..Dissipation::default() };
     new.set_inset(law, inset);
     if law.friction > 0.0 {
-        spent.friction = update_friction((at, acting.as_ref()), (law, now.dt), way(old, part), old, &mut new);
+        spent.friction = update_friction((at, acting), (law, now.dt), way(old, part), old, &mut new);
     }
     spent
 }
 
-/// Gap and approach speed of solids apart, on the scale of their depth. Where an edge or a corner touches first, the depth and its rate are
-/// less than the motion along the axis.
-fn approach(at: &PairKinematics) -> (f64, f64) {
-    let ahead = approaching(&at.pose);
+/// Gap and approach speed of solids apart, on the scale of their depth unless they are far. Where an edge or a corner touches first, the
+/// depth and its rate are less than the motion along the axis.
+fn approach(at: &PairKinematics, least: &LeastAxis, is_far: bool) -> (f64, f64) {
+    let ahead = if is_far { gap_along(&at.pose, least) } else { approaching(&at.pose, least) };
     (-ahead.D, ahead.g.dot(&at.rates))
+}
+
+/// An upper bound of the speed of approach.
+fn speed(at: &PairKinematics) -> f64 {
+    linear(&at.rates).norm() + angular(&at.rates).norm() * at.pose.own.reach()
 }
 
 /// Writes the memory of friction; returns the dissipation of slip.

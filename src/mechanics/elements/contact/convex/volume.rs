@@ -16,36 +16,32 @@ use super::pose::PolyhedronPose;
 use base::math::polyhedron::SolidMoments;
 use base::math::{Mat3, Vec3, frame_along, stack};
 
-/// Corners of the faces of what two boxes have in common, and of most hulls.
-const FEW_CORNERS: usize = 12;
-/// Faces of that, and room for some triangles.
-const FEW_FACES: usize = 24;
-/// Corners of the faces of others: what needs more is pushed along the axis of the least overlap alone.
-const MANY_CORNERS: usize = 32;
-/// Faces of others.
-const MANY_FACES: usize = 128;
+/// Most faces, and room for points, of what two boxes have in common, and most hulls.
+const FEW: (usize, usize) = (24, 48);
+/// Room for others: what needs more is pushed along the axis of the least overlap alone.
+const MANY: (usize, usize) = (128, 255);
 
 /// The depth of two polyhedra with the deepest point `origin` along an `axis`; `None` where the common solid vanishes by rounding.
 pub(super) fn depth_by_volume(pose: &PolyhedronPose, axis: &Vec3, origin: &Vec3) -> Option<Depth> {
     let T = frame_along(axis);
-    let few = by_moments::<FEW_CORNERS, FEW_FACES>(pose, &T, origin);
-    few.or_else(|| by_moments::<MANY_CORNERS, MANY_FACES>(pose, &T, origin)).flatten()
+    let few = by_moments::<{ FEW.0 }, { FEW.1 }>(pose, &T, origin);
+    few.or_else(|| by_moments::<{ MANY.0 }, { MANY.1 }>(pose, &T, origin)).flatten()
 }
 
-/// The depth with room for CORNERS and FACES; `None` if that is too small.
-fn by_moments<const CORNERS: usize, const FACES: usize>(
+/// The depth with room for FACES and POINTS; `None` if that is too small.
+fn by_moments<const FACES: usize, const POINTS: usize>(
     pose: &PolyhedronPose,
     T: &Mat3,
     origin: &Vec3,
 ) -> Option<Option<Depth>> {
-    Some(of_faces(pose, T, origin, &faces::<CORNERS, FACES>(pose, T, origin)?))
+    Some(of_faces(pose, T, origin, &faces::<FACES, POINTS>(pose, T, origin)?))
 }
 
-fn of_faces<const CORNERS: usize, const FACES: usize>(
+fn of_faces<const FACES: usize, const POINTS: usize>(
     pose: &PolyhedronPose,
     T: &Mat3,
     origin: &Vec3,
-    faces: &Faces<CORNERS, FACES>,
+    faces: &Faces<FACES, POINTS>,
 ) -> Option<Depth> {
     let moments = faces.moments()?;
     let measure = Measure::of(&moments)?;
