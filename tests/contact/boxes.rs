@@ -301,3 +301,26 @@ fn boxes_drawn_face_to_face_hold_in_statics() {
         }
     }
 }
+
+/// A box in a corner of three planes has eight points, which its contacts share whatever the stage.
+#[test]
+fn contacts_share_the_corners_of_a_body() {
+    let plane = |k: usize| {
+        let normal: [f64; 3] = std::array::from_fn(|i| if i == k { 1.0 } else { 0.0 });
+        format!(
+            "[[contacts]]\nname = \"plane{k}\"\nsurface = {{ shape = \"plane\", point = [0.0, 0.0, 0.0], normal = {normal:?} }}\n\
+             with = \"box\"\nstiffness = 1e5\n"
+        )
+    };
+    let model = |planes: &[usize]| {
+        let text = "analysis = { kind = \"dynamic\", end_time = 0.1, time_step = 1e-3 }\n\
+            bodies = [{ name = \"box\", center = [0.5, 0.5, 0.5], shape = { kind = \"box\", size = [0.2, 0.2, 0.2] }, mass = 2.0 }]\n";
+        read_deck(&planes.iter().fold(text.to_owned(), |text, &k| text + &plane(k)))
+    };
+    let corners = |planes: &[usize]| -> Vec<String> {
+        let nodes = model(planes).nodes.into_iter().map(|node| node.label);
+        nodes.filter(|label| label.starts_with("box[")).collect()
+    };
+    assert_eq!(corners(&[0, 1, 2]).len(), 8);
+    assert_eq!(corners(&[0, 1, 2]), corners(&[2]));
+}

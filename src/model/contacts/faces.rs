@@ -36,7 +36,7 @@ pub fn read_facets<'d>(
     }
     let (surface, points) = match (&contact.among, &contact.surface) {
         (Some(among), _) => balls(finder, owner, contact, among)?,
-        (None, Some(table)) => faces(finder, owner, name, contact, table)?,
+        (None, Some(table)) => faces(finder, owner, contact, table)?,
         (None, None) => return None,
     };
     let touchers = std::mem::take(&mut finder.sight.touchers);
@@ -49,7 +49,6 @@ pub fn read_facets<'d>(
 fn faces<'d>(
     finder: &mut Finder<'_, 'd>,
     owner: &Owner<'d>,
-    name: &str,
     contact: &'d words::Contact,
     table: &'d At<OneOf<words::Surface>>,
 ) -> Option<(FacetSurface, Vec<ContactPoint>)> {
@@ -95,7 +94,7 @@ fn faces<'d>(
     let root = finder.topology.root(faces.facets[0].nodes[0]);
     let is_rigid = faces.facets.iter().flat_map(Facet::nodes).all(|&node| finder.topology.root(node) == root);
     finder.on_lines = lines;
-    let points = finder.touching(owner, name, contact, is_rigid.then_some(root))?;
+    let points = finder.touching(owner, contact, is_rigid.then_some(root))?;
     faces.solids = solids_of(scene, &names.values, contact.radius.as_ref().map_or(0.0, |at| at.value), is_line);
     if !is_line {
         faces.corners = corners_of(&faces.solids, &points, finder);

@@ -13,7 +13,7 @@ use mechanics::elements::contact::{Facet, TouchKind, Toucher};
 
 impl<'d> Finder<'_, 'd> {
     /// The lines of a place in contact with a surface of lines; `None` for contact by points.
-    pub(super) fn lines_of_place(&mut self, place: Place, name: &str, at: &'d At<String>) -> Option<Vec<Touch>> {
+    pub(super) fn lines_of_place(&mut self, place: Place, at: &'d At<String>) -> Option<Vec<Touch>> {
         if self.on_lines == SurfaceLines::None {
             return None;
         }
@@ -29,7 +29,7 @@ impl<'d> Finder<'_, 'd> {
             return Some(self.lines_of_part(part, |_| true));
         }
         match place {
-            Place::Body(body) => self.lines_of_solid(body, name, at).or_else(|| self.lines_of_parts(body)),
+            Place::Body(body) => self.lines_of_solid(body, at).or_else(|| self.lines_of_parts(body)),
             _ => None,
         }
     }
@@ -47,44 +47,36 @@ impl<'d> Finder<'_, 'd> {
 
     /// The lines of a body with a shape. A capsule is the line between its ends. A box or a hull has its corners and, for crossings, its
     /// edges; a cylinder has those of an inscribed prism. All of these are nodes that are rigidly attached to the body.
-    fn lines_of_solid(&mut self, body: usize, name: &str, at: &'d At<String>) -> Option<Vec<Touch>> {
+    fn lines_of_solid(&mut self, body: usize, at: &'d At<String>) -> Option<Vec<Touch>> {
         self.scene.deck.bodies.get(body)?.shape.as_ref()?;
         let shape = self.scene.bodies[body].shape.as_convex()?;
         self.sight.touchers.insert(self.toucher_of_body(body));
         Some(match shape {
             ConvexShape::Spherocylinder(Spherocylinder { half, radius }) => {
-                let ends = self.attached(body, &[-half, half], name, at);
+                let ends = self.attached(body, &[-half, half], at);
                 vec![Touch::line(&ends, radius)]
             }
-            ConvexShape::Polyhedron(shape) => self.corners_and_edges(body, &shape, &Mat3::identity(), name, at),
-            ConvexShape::Cylinder(shape) => self.corners_and_edges(body, &shape.prism_within(), shape.axes(), name, at),
+            ConvexShape::Polyhedron(shape) => self.corners_and_edges(body, &shape, &Mat3::identity(), at),
+            ConvexShape::Cylinder(shape) => self.corners_and_edges(body, &shape.prism_within(), shape.axes(), at),
             ConvexShape::HalfSpace(_) => return None,
         })
     }
 
     /// The corners of a polyhedron in these axes of a body, and its edges for crossings.
-    fn corners_and_edges(
-        &mut self,
-        body: usize,
-        shape: &Polyhedron,
-        axes: &Mat3,
-        name: &str,
-        at: &'d At<String>,
-    ) -> Vec<Touch> {
+    fn corners_and_edges(&mut self, body: usize, shape: &Polyhedron, axes: &Mat3, at: &'d At<String>) -> Vec<Touch> {
         let places: Vec<Vec3> = shape.corners().iter().map(|corner| axes * corner).collect();
-        let corners = self.attached(body, &places, name, at);
+        let corners = self.attached(body, &places, at);
         let edges = shape.edges().iter().map(|edge| Touch::edge(&edge.ends.map(|k| corners[k]), 0.0));
         corners.iter().map(|&corner| Touch::node(corner, 0.0)).chain(edges).collect()
     }
 
-    /// Nodes that are rigidly attached to a body, at places from its centre.
-    fn attached(&mut self, body: usize, places: &[Vec3], name: &str, at: &'d At<String>) -> Vec<usize> {
+    /// Nodes that are rigidly attached to a body, at places from its centre. All contacts share them.
+    pub(super) fn attached(&mut self, body: usize, places: &[Vec3], at: &'d At<String>) -> Vec<usize> {
         let of = &self.scene.bodies[body];
         let center = self.topology.x(of.node);
-        let nodes = places.iter().enumerate().map(|(k, place)| {
-            self.topology.add_dependent(format!("{name}.{}[{k}]", of.name), center + place, of.node, &at.span)
-        });
-        nodes.collect()
+        let label = |place: &Vec3| format!("{}{:?}", of.name, place.as_slice());
+        let node = |place: &Vec3| self.topology.touching_node(label(place), center + place, of.node, &at.span);
+        places.iter().map(node).collect()
     }
 
     /// The lines of the rigid parts of a body; for shells against beams, their nodes.

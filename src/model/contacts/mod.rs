@@ -106,7 +106,7 @@ fn of_shape<'d>(
     let by_points = is_augmented(contact);
     let on_convex = surface.as_ref().and_then(|(node, surface)| in_full(*node, surface, by_points));
     let mut finder = Finder { on_convex, ..Finder::new(scene, topology, report) };
-    let points = finder.touching(owner, name, contact, carrier);
+    let points = finder.touching(owner, contact, carrier);
     let (solids, mut sight) = (finder.convex, finder.sight);
     let is_carried_by_tube =
         |node: usize| Body::at(&scene.bodies, node).is_some_and(|body| scene.bodies[body].shape.has_hole());

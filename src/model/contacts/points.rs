@@ -124,7 +124,6 @@ impl<'a, 'd> Finder<'a, 'd> {
     pub fn touching(
         &mut self,
         owner: &Owner<'d>,
-        name: &str,
         contact: &'d words::Contact,
         carrier: Option<usize>,
     ) -> Option<Vec<ContactPoint>> {
@@ -145,7 +144,7 @@ impl<'a, 'd> Finder<'a, 'd> {
         let mut undivided = Undivided::default();
         for at in &names.values {
             let solids = self.convex.len();
-            let Some(found) = self.touches_of_name(at, name, between, carrier) else {
+            let Some(found) = self.touches_of_name(at, between, carrier) else {
                 sound = false;
                 continue;
             };
@@ -243,13 +242,7 @@ impl<'a, 'd> Finder<'a, 'd> {
     }
 
     /// The points of one name in the list; `None` if unknown or not allowed to touch.
-    fn touches_of_name(
-        &mut self,
-        at: &'d At<String>,
-        name: &str,
-        between: usize,
-        carrier: Option<usize>,
-    ) -> Option<Vec<Touch>> {
+    fn touches_of_name(&mut self, at: &'d At<String>, between: usize, carrier: Option<usize>) -> Option<Vec<Touch>> {
         let place = self.scene.names.find(at, self.report)?;
         if matches!(place, Place::Part(_)) && !place.has_nodes() {
             let message = format!("`with` takes points, bodies, sets or parts, and `{}` is {}", at.value, place.kind());
@@ -257,7 +250,7 @@ impl<'a, 'd> Finder<'a, 'd> {
         }
         let (mut found, convex) = (Vec::new(), self.convex.len());
         for place in self.scene.names.leaves(place) {
-            self.touches_of(place, name, between, at, &mut found);
+            self.touches_of(place, between, at, &mut found);
         }
         if found.is_empty() && self.convex.len() > convex {
             return Some(found);
@@ -291,8 +284,8 @@ impl<'a, 'd> Finder<'a, 'd> {
         ContactPoint { nodes, weights, count: touch.nodes.len(), radius, rolling_radius, extent: touch.extent }
     }
 
-    fn touches_of(&mut self, place: Place, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
-        if let Some(lines) = self.lines_of_place(place, name, at) {
+    fn touches_of(&mut self, place: Place, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
+        if let Some(lines) = self.lines_of_place(place, at) {
             return found.extend(lines);
         }
         self.sight.touchers.insert(match place {
@@ -301,7 +294,7 @@ impl<'a, 'd> Finder<'a, 'd> {
             _ => Toucher::Ball,
         });
         match place {
-            Place::Body(body) => self.touches_of_body(body, name, between, at, found),
+            Place::Body(body) => self.touches_of_body(body, between, at, found),
             Place::Part(part) => {
                 let radius = self.contact_radius(part);
                 self.divides = true;
@@ -372,7 +365,7 @@ impl<'a, 'd> Finder<'a, 'd> {
     }
 
     /// Finds points of a body's shape, as nodes that are rigidly attached to the body.
-    fn touches_of_body(&mut self, body: usize, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
+    fn touches_of_body(&mut self, body: usize, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
         let (node, shape) = (self.scene.bodies[body].node, self.scene.bodies[body].shape.clone());
         let is_drawn = self.scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
         if let (Some(on), Some(shape), true) = (self.on_convex, shape.as_convex(), is_drawn)
@@ -395,11 +388,7 @@ impl<'a, 'd> Finder<'a, 'd> {
         };
         self.divides = true;
         self.sight.openings.extend(width.map(|width| Opening { width, radius, divides: true }));
-        let (center, label) = (self.topology.x(node), self.scene.bodies[body].name.clone());
-        for (k, point) in points.into_iter().enumerate() {
-            let dependent = self.topology.add_dependent(format!("{name}.{label}[{k}]"), center + point, node, &at.span);
-            found.push(Touch::node(dependent, radius));
-        }
+        found.extend(self.attached(body, &points, at).into_iter().map(|node| Touch::node(node, radius)));
     }
 }
 

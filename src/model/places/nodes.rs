@@ -183,12 +183,21 @@ pub struct Topology {
     complete: bool,
     /// Ends of links and joints of other stages.
     pub ends_elsewhere: HashSet<usize>,
+    /// Nodes attached to bodies for contacts, by their labels.
+    touching: HashMap<String, usize>,
 }
 
 impl Topology {
     /// The nodes once all tables that connect them have been read.
     pub fn new(nodes: Nodes, report: &Report) -> Self {
-        Topology { nodes, complete: report.connections_known(), ends_elsewhere: HashSet::new() }
+        let complete = report.connections_known();
+        Topology { nodes, complete, ends_elsewhere: HashSet::new(), touching: HashMap::new() }
+    }
+
+    /// The node that is attached to a body for contacts under a label, which tells the body and the place.
+    pub fn touching_node(&mut self, label: String, x: Vec3, body: usize, place: &Span) -> usize {
+        let known = self.touching.entry(label.clone());
+        *known.or_insert_with(|| self.nodes.add_dependent(label, x, body, place))
     }
 
     /// True if all connecting tables could be read.
