@@ -194,7 +194,7 @@ impl Topology {
         Topology { nodes, complete, ends_elsewhere: HashSet::new(), touching: HashMap::new() }
     }
 
-    /// The node that is attached to a body for contacts under a label, which tells the body and the place.
+    /// The node attached to a body for contacts; its label names the body and the place.
     pub fn touching_node(&mut self, label: String, x: Vec3, body: usize, place: &Span) -> usize {
         let known = self.touching.entry(label.clone());
         *known.or_insert_with(|| self.nodes.add_dependent(label, x, body, place))

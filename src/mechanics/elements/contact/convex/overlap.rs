@@ -195,7 +195,7 @@ impl<const FACES: usize, const POINTS: usize> Faces<FACES, POINTS> {
         Some(left)
     }
 
-    /// The point where the plane meets an edge, which both faces at the edge share.
+    /// The number of the point where the plane meets an edge; both faces at the edge share it.
     fn crossing(&mut self, ends: [u8; 2], cut: &mut Cut<POINTS>) -> Option<u8> {
         let made = self.used - cut.first;
         if let Some(known) = cut.ends[..made].iter().position(|known| *known == ends) {
