@@ -3,6 +3,7 @@
 use super::console::{complain, counted, show};
 use super::exit::Exit;
 use base::diagnostic::{Diagnostic, Source};
+use deck::DeckRead;
 use linear::TooLarge;
 use model::{self, Model};
 use results::settle_cadence;
@@ -78,12 +79,17 @@ pub fn load(path: &Path, sets: &[String], options: Vec<String>) -> Result<Loaded
     })
 }
 
-/// Builds the model of a deck that has been read.
+/// Builds the model of a deck.
 ///
 /// # Errors
 /// All faults, with the texts of their places.
 pub fn build(source: Source, sets: &[String]) -> Result<Loaded, (Vec<Diagnostic>, Source)> {
-    let (mut models, mut said) = model::read_stages(&source);
+    build_read(deck::read(&source), source, sets)
+}
+
+/// As [`build`], of the deck that has been read from the source.
+pub fn build_read(deck: DeckRead, source: Source, sets: &[String]) -> Result<Loaded, (Vec<Diagnostic>, Source)> {
+    let (mut models, mut said) = model::build_read(deck, &source);
     if let Err(problems) = reduce(&mut models.iter_mut().collect::<Vec<_>>()) {
         said.extend(problems);
         models.clear();

@@ -14,7 +14,7 @@ use super::console::{complain, print, say, show};
 use super::estimate::alternative;
 use super::exit::Exit;
 use super::folder::{named_after, require_free};
-use super::load::{Loaded, Unfit, build, load, plan, prepare, too_large};
+use super::load::{Loaded, Unfit, build_read, load, plan, prepare, too_large};
 use super::memory::{Forecast, require_memory};
 use super::mesh_error::{Judged, of_file, tell_mesh_error};
 use super::resume::{checkpoint_in, checkpoint_origin, deck_digest, resume};
@@ -24,6 +24,7 @@ use super::verdict::{End, end, error_bars_in_words, line};
 use super::version::{VERSION, instructions};
 use super::watchers::{Watchers, stage_begins};
 use base::diagnostic::{Diagnostic, Source};
+use deck::ParsedText;
 use model::{Model, StepLength};
 use results::checkpoint::{Checkpoint, CheckpointOrigin};
 use results::collected::Collected;
@@ -113,6 +114,8 @@ pub struct Case<'a> {
     pub sets: &'a [String],
     /// Its folder, whose lock is held.
     pub folder: &'a Path,
+    /// The text of its deck, parsed without overrides.
+    pub parsed: &'a ParsedText<'a>,
     /// The [`deck_digest`] of its deck.
     pub deck: &'a str,
     /// The digests of the files that the sweep has found when it began.
@@ -139,13 +142,14 @@ pub struct CaseEnd {
 /// # Errors
 /// The obstacle: errors of the deck as text, or an error of input/output.
 pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<CaseEnd, CaseFault> {
-    let Case { sets, folder, deck, files, only } = *case;
+    let Case { sets, folder, parsed, deck, files, only } = *case;
     let began = Instant::now();
     let faults = |problems: &[Diagnostic], source: &Source| {
         let errors = problems.iter().filter(|problem| problem.is_error());
         CaseFault::Deck(errors.map(|problem| problem.draw(source, false)).collect::<Vec<_>>().join("\n"))
     };
-    let loaded = build(source, sets).map_err(|(problems, source)| faults(&problems, &source))?;
+    let read = parsed.clone().into_deck(&source);
+    let loaded = build_read(read, source, sets).map_err(|(problems, source)| faults(&problems, &source))?;
     go_on_unless(stop)?;
     let (mut loaded, chosen) = settle(loaded, 1, stop).map_err(|(problems, source)| faults(&problems, &source))?;
     go_on_unless(stop)?;

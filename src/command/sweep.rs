@@ -11,6 +11,8 @@ use super::signals::{EndAtOnce, stop_on_signals};
 use super::version::VERSION;
 use base::diagnostic::Source;
 use clap::Args;
+use deck::ParsedText;
+use deck::number_slips::without_foreign_comments;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use results::collected::Collected;
 use results::{SharedLock, replace};
@@ -110,7 +112,17 @@ pub fn sweep(args: &SweepArgs) -> Result<(), Exit> {
     let _ = rayon::ThreadPoolBuilder::new().num_threads(jobs).build_global();
     folder.write_cases(&cases).map_err(|error| cannot_write(&folder.path, &error))?;
     let stop = Arc::new(AtomicBool::new(false));
-    let sweep = Sweep { deck: &deck, text: &deck_text, cases: &cases, folder: &folder, stop: &stop, quiet: args.quiet };
+    let Source { text: composed, .. } = Source::new("", deck_text.as_str(), &[]);
+    let plain = without_foreign_comments(&composed);
+    let sweep = Sweep {
+        deck: &deck,
+        text: &deck_text,
+        parsed: ParsedText::new(&composed, &plain),
+        cases: &cases,
+        folder: &folder,
+        stop: &stop,
+        quiet: args.quiet,
+    };
     // To write the summary is short and moves whole files in: it is brought to its end.
     stop_on_signals(&stop).map_err(|error| cannot_write(&folder.path, &error))?;
     drop(reading);
@@ -192,6 +204,7 @@ struct Pool<'p> {
 struct Sweep<'s> {
     deck: &'s Path,
     text: &'s str,
+    parsed: ParsedText<'s>,
     cases: &'s Cases,
     folder: &'s SweepFolder,
     stop: &'s AtomicBool,
@@ -269,7 +282,8 @@ impl Sweep<'_> {
         }
         let source = Source::new(self.deck.display().to_string(), self.text, &sets);
         let only = self.folder.only();
-        let what = Case { sets: &sets, folder: &folder, deck: pool.deck, files: &self.folder.files, only };
+        let (parsed, files) = (&self.parsed, &self.folder.files);
+        let what = Case { sets: &sets, folder: &folder, parsed, deck: pool.deck, files, only };
         let ran = catch_unwind(AssertUnwindSafe(|| run_case(source, &what, self.stop)));
         let why = match ran {
             Ok(Ok(CaseEnd { status, reason, warnings, numbers })) => {

@@ -50,7 +50,7 @@ mod value;
 
 pub use base::words;
 pub use hints::{kinds_with, missing as remedy_of_missing};
-pub use read::read;
+pub use read::{DeckRead, ParsedText, read};
 
 use schemars::JsonSchema;
 use serde::Deserialize;

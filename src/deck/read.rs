@@ -4,6 +4,7 @@
 //! is left to stumble over. Faults arrive as a [`Wrong`]; this file writes their messages.
 
 use serde::Deserialize;
+use std::borrow::Cow;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -19,38 +20,61 @@ pub const ROOT: Span = 0..0;
 const LIMIT: usize = 200;
 
 /// Reads a deck with its `--set` arguments. Unreadable entries are left out and reported; with too many of them there is no deck.
-pub fn read(source: &Source) -> (Option<Deck>, Vec<Diagnostic>) {
-    let arguments: Vec<String> = source.sets.iter().map(|(_, text)| set::toml(text)).collect();
-    let mut reader = Reader::default();
-    let (text, slip) = number_slips::without_foreign_comments(&source.text);
-    reader.problems.extend(slip);
-    let (root, syntax) = DeTable::parse_recoverable(&text);
-    let mut root = root.into_inner();
-    for error in &syntax {
-        reader.syntax(&source.text, error);
-    }
-    reader.problems.extend(aliases::unify(&mut root));
-    for ((offset, text), argument) in source.sets.iter().zip(&arguments) {
-        if let Err(problem) = set::merge(&mut root, argument, *offset, text) {
-            reader.problems.push(problem);
-        }
-    }
-    let words = study::words(&root);
-    reader.problems.extend(study::expand(&mut root, &words));
-    reader.problems.extend(actuators::move_to_joints(&mut root));
-    let profiles = profiles::words(&root);
-    let (problems, spoiled) = profiles::expand(&mut root, &profiles);
-    reader.problems.extend(problems);
-    reader.spoiled.extend(spoiled);
-    reader.texts(&mut root);
-    reader.numbers(&mut root);
-    reader.lengths(&mut root);
-    let deck = reader.tables(root);
-    let spoiled = reader.spoiled;
-    (deck.map(|deck| Deck { spoiled, ..deck }), reader.problems)
+pub fn read(source: &Source) -> DeckRead {
+    let plain = number_slips::without_foreign_comments(&source.text);
+    ParsedText::new(&source.text, &plain).into_deck(source)
 }
 
-#[derive(Default)]
+/// A deck, and the faults of its text.
+pub type DeckRead = (Option<Deck>, Vec<Diagnostic>);
+
+/// The text of a deck as TOML, before `--set` arguments change its entries.
+#[derive(Clone)]
+pub struct ParsedText<'t> {
+    root: DeTable<'t>,
+    reader: Reader,
+}
+
+impl<'t> ParsedText<'t> {
+    /// Parses a text, given also as [`number_slips::without_foreign_comments`] returns it.
+    pub fn new(text: &str, (plain, slip): &'t (Cow<str>, Option<Diagnostic>)) -> Self {
+        let mut reader = Reader::default();
+        reader.problems.extend(slip.clone());
+        let (root, syntax) = DeTable::parse_recoverable(plain);
+        let mut root = root.into_inner();
+        for error in &syntax {
+            reader.syntax(text, error);
+        }
+        reader.problems.extend(aliases::unify(&mut root));
+        ParsedText { root, reader }
+    }
+
+    /// The deck of a source with this text.
+    pub fn into_deck(self, source: &Source) -> DeckRead {
+        let arguments: Vec<String> = source.sets.iter().map(|(_, text)| set::toml(text)).collect();
+        let ParsedText { mut root, mut reader } = self;
+        for ((offset, text), argument) in source.sets.iter().zip(&arguments) {
+            if let Err(problem) = set::merge(&mut root, argument, *offset, text) {
+                reader.problems.push(problem);
+            }
+        }
+        let words = study::words(&root);
+        reader.problems.extend(study::expand(&mut root, &words));
+        reader.problems.extend(actuators::move_to_joints(&mut root));
+        let profiles = profiles::words(&root);
+        let (problems, spoiled) = profiles::expand(&mut root, &profiles);
+        reader.problems.extend(problems);
+        reader.spoiled.extend(spoiled);
+        reader.texts(&mut root);
+        reader.numbers(&mut root);
+        reader.lengths(&mut root);
+        let deck = reader.tables(root);
+        let spoiled = reader.spoiled;
+        (deck.map(|deck| Deck { spoiled, ..deck }), reader.problems)
+    }
+}
+
+#[derive(Clone, Default)]
 struct Reader {
     problems: Vec<Diagnostic>,
     spoiled: Vec<Spoiled>,

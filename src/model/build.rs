@@ -81,8 +81,8 @@ use super::supports::supports;
 use super::ties::ties;
 use super::values::vec3;
 use base::diagnostic::{Diagnostic, Source};
-use deck::Deck;
 use deck::read::ROOT;
+use deck::{Deck, DeckRead};
 use mechanics::amplitude::Amplitude;
 use mechanics::elements::contact::ContactLaw;
 use mechanics::integrators::{Scheme, Stepping};
@@ -118,7 +118,12 @@ pub fn read(source: &Source) -> (Option<Model>, Vec<Diagnostic>) {
 
 /// Reads a deck and builds the model of each of its stages (one without stages); diagnostics are in the order of the deck.
 pub fn read_stages(source: &Source) -> (Vec<Model>, Vec<Diagnostic>) {
-    read_from(source, (&[], None))
+    build_read(deck::read(source), source)
+}
+
+/// As [`read_stages`], of the deck that has been read from the source.
+pub fn build_read(deck: DeckRead, source: &Source) -> (Vec<Model>, Vec<Diagnostic>) {
+    read_from(deck, source, (&[], None))
 }
 
 /// Rebuilds the model of the next stage, after stages with an early end at the times `reached`. Data independent of times are those of the
@@ -127,7 +132,7 @@ pub fn read_stages(source: &Source) -> (Vec<Model>, Vec<Diagnostic>) {
 /// # Errors
 /// The deck, or one of its files, has changed.
 pub fn replan(source: &Source, reached: &[f64], planned: &Model) -> Result<Model, String> {
-    let (models, said) = read_from(source, (reached, Some(planned)));
+    let (models, said) = read_from(deck::read(source), source, (reached, Some(planned)));
     let mut model = models.into_iter().next().ok_or_else(|| {
         said.into_iter()
             .find(Diagnostic::is_error)
@@ -149,8 +154,11 @@ pub fn replan(source: &Source, reached: &[f64], planned: &Model) -> Result<Model
 }
 
 /// The models of all stages, or of the next one, planned otherwise, after some that have ended at these times.
-fn read_from(source: &Source, stages: (&[f64], Option<&Model>)) -> (Vec<Model>, Vec<Diagnostic>) {
-    let (deck, mut problems) = deck::read(source);
+fn read_from(
+    (deck, mut problems): DeckRead,
+    source: &Source,
+    stages: (&[f64], Option<&Model>),
+) -> (Vec<Model>, Vec<Diagnostic>) {
     let folder = Path::new(&source.path).parent().unwrap_or(Path::new(""));
     let (input, mut said) = deck.as_ref().map_or((None, Vec::new()), |deck| Input::load(deck, folder));
     let (records, of_records) = deck.as_ref().map_or((Vec::new(), Vec::new()), |deck| load_records(deck, folder));

@@ -59,7 +59,7 @@ pub mod inner {
     pub use crate::places::cells::Cells;
 }
 
-pub use build::{read, read_stages, replan};
+pub use build::{build_read, read, read_stages, replan};
 pub use data::*;
 pub use mesh_file::Input;
 pub use procedure::study;

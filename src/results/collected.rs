@@ -200,6 +200,11 @@ impl RowSearch {
         self.end();
     }
 
+    /// True where a number may come from rows with this first key.
+    pub fn reads(&self, subject: &str) -> bool {
+        self.others[1].is_some() || self.searches.iter().any(|search| search.wanted.at.starts_with(subject))
+    }
+
     /// Begins a row with its step.
     pub fn begin(&mut self, step: usize) {
         self.next = 0;

@@ -28,6 +28,11 @@ pub type WriteRows = Box<dyn Fn(&mut dyn WriteRow, &Frame) -> io::Result<()>>;
 
 /// Receives the rows of a table, field by field: a file, or an account of the numbers.
 pub trait WriteRow {
+    /// False where nobody reads the rows with this first key.
+    fn reads(&self, _subject: &str) -> bool {
+        true
+    }
+
     /// Begins a row with the two columns that every table has.
     fn row(&mut self, step: usize, time: f64) -> &mut dyn WriteRow;
 

@@ -254,6 +254,10 @@ fn cut_back(file: &File, written: u64, rows: &[u8]) -> u64 {
 }
 
 impl WriteRow for TableFile {
+    fn reads(&self, subject: &str) -> bool {
+        self.search().is_none_or(|search| search.reads(subject))
+    }
+
     fn row(&mut self, step: usize, time: f64) -> &mut dyn WriteRow {
         match &mut self.target {
             Target::File(_) => self.rows.begin(step),

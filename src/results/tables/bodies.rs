@@ -70,6 +70,9 @@ fn quaternion(now: &Node) -> [f64; 4] {
 
 fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     frame.model.bodies.iter().try_for_each(|body| {
+        if !table.reads(&body.name) {
+            return Ok(());
+        }
         table.row(frame.step, frame.state.time).text(&body.name);
         table.numbers(&values(&frame.state.nodes[body.node])).end()
     })

@@ -78,6 +78,9 @@ fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     let output = &frame.model.output;
     output.nodes.iter().enumerate().try_for_each(|(k, &i)| {
         let node = &frame.model.nodes[i];
+        if !table.reads(&node.label) {
+            return Ok(());
+        }
         table.row(frame.step, frame.state.time).text(&node.label);
         table.numbers(&values(node, &frame.state.nodes[i], motion(frame, i)));
         output.sets.get(k).into_iter().for_each(|set| _ = table.text(set));
