@@ -27,14 +27,18 @@ pub const UNFINISHED: &str = ".tmp";
 /// # Errors
 /// Something that is neither a file nor a link has this name, or the system refuses; the error does not name the file.
 pub fn create(path: &Path) -> io::Result<File> {
-    match fs::symlink_metadata(path) {
-        Ok(found) if found.is_file() || found.is_symlink() => fs::remove_file(path)?,
-        Ok(_) => return Err(io::Error::new(io::ErrorKind::AlreadyExists, "there is something else of this name")),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-        Err(error) => return Err(error),
-    }
     // Each write appends: if another process truncates the file, no hole arises, and the length shows the loss.
-    OpenOptions::new().append(true).create_new(true).open(path)
+    let make = || OpenOptions::new().append(true).create_new(true).open(path);
+    match make() {
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+        made => return made,
+    }
+    let found = fs::symlink_metadata(path)?;
+    if !(found.is_file() || found.is_symlink()) {
+        return Err(io::Error::new(io::ErrorKind::AlreadyExists, "there is something else of this name"));
+    }
+    fs::remove_file(path)?;
+    make()
 }
 
 /// Whether an open file still stands under its name. On systems without inodes, any file of that name counts.

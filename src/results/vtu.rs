@@ -144,10 +144,12 @@ impl GridText {
             return Err(at(path, fault));
         }
         self.text.push_str(APPENDED);
-        let parts = [self.text.as_bytes(), &self.data, CLOSE.as_bytes()];
-        create(path)
-            .and_then(|mut file| parts.iter().try_for_each(|part| file.write_all(part)))
-            .map_err(|e| at(path, e))
+        // One call writes all of the file.
+        self.bytes.clear();
+        for part in [self.text.as_bytes(), &self.data, CLOSE.as_bytes()] {
+            self.bytes.extend_from_slice(part);
+        }
+        create(path).and_then(|mut file| file.write_all(&self.bytes)).map_err(|e| at(path, e))
     }
 }
 
