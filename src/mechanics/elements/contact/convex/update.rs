@@ -14,7 +14,7 @@ use crate::state::Configuration;
 use base::math::rotation::{exp, matrix};
 use base::math::{Vec3, angular, linear};
 
-/// Number of steps in which a pair must not land for its approach to be that along the axis.
+/// Pairs that cannot land within this number of steps approach along the axis.
 const STEPS_AHEAD: f64 = 8.0;
 
 /// Writes the history of a pair, at `at` in `now`, after `part` of the way from the last state; returns the dissipation.
