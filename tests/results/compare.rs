@@ -221,6 +221,33 @@ fn a_path_that_turns_is_matched_by_step() {
 }
 
 /// Rows of a response belong together by their frequency, response by response, wherever they stand in the file.
+/// Under displacement control times are results: each row has its partner at its step, and a wrong one is seen.
+#[test]
+fn a_displacement_that_is_led_is_matched_by_step() {
+    let root = folders();
+    let path = |factor: f64, fifth: f64| {
+        let mut text = String::from("step,time,node,ux\n");
+        (0..=20).for_each(|i| {
+            let u = if i == 5 { fifth } else { f64::from(i) };
+            text += &format!("{i},{:?},tip,{u:?}\n", 0.1 * factor * f64::from(i))
+        });
+        text
+    };
+    for (side, factor) in [("a", 1.0), ("b", 1.0005)] {
+        fs::write(root.path().join(side).join("nodes.csv"), path(factor, 5.0)).unwrap();
+        let result = RESULT.replace("\"done\"", "\"done\", \"by_displacement\": true");
+        fs::write(root.path().join(side).join("result.json"), result).unwrap();
+    }
+    let tolerance = ["--tolerance", "1e-3"];
+    assert!(both_ways(&root, 0, &tolerance).contains("nodes.csv: 21 rows matched at 21 steps"));
+    change(&root, "nodes.csv", |_| path(1.0005, 50.0));
+    assert!(both_ways(&root, 5, &tolerance).contains("ux"));
+    // A run that was led by time has its times in common with the other.
+    change(&root, "result.json", |_| RESULT.to_owned());
+    assert!(both_ways(&root, 0, &tolerance).contains("matched at 1 time"));
+}
+
+/// Rows of a response belong together by their frequency, response by response, wherever they stand in the file.
 #[test]
 fn a_response_is_matched_by_frequency_and_point() {
     let root = folders();
