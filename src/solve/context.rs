@@ -1,9 +1,11 @@
 //! The constants of a run: the model, its plan, its system, and data computed from them once.
 
 use super::node_chunks::NodeChunks;
+use super::step::size::ModelSize;
 use super::stop_request::StopRequest;
 use crate::plan::Plan;
 use crate::system::{Excitation, System};
+use crate::tolerances::context::{FORCES, POSITIONS};
 use base::math::Vec3;
 use mechanics::constraints::joint::Joint;
 use mechanics::state::Node;
@@ -34,6 +36,8 @@ pub struct Context<'a> {
     pub length: f64,
     /// Position of the first node at t = 0, the origin of coordinates for estimates of rounding.
     pub origin: Vec3,
+    /// Motions below this length are rounding.
+    pub rounding: f64,
     /// True where reactions or the work of forces are wanted.
     pub wants_forces: bool,
     /// True where energies are wanted.
@@ -54,6 +58,8 @@ impl<'a> Context<'a> {
         let dynamic = model.analysis.kind == AnalysisKind::Dynamic;
         let independent_nodes = independent_nodes(model, plan, system);
         let restraints = &model.constraints.restraints;
+        let length = extent(model);
+        let farthest = model.nodes.iter().map(|node| node.x.amax()).fold(0.0, f64::max);
         let shares_nodes = plan.threads > 1 && plan.has_many_nodes();
         Context {
             model,
@@ -65,12 +71,18 @@ impl<'a> Context<'a> {
             driving: driving(model, system),
             numbers: model.number_nodes().collect(),
             algorithmic_acceleration: if dynamic { model.solution.scheme.algorithmic_acceleration() } else { None },
-            length: extent(model),
+            length,
+            rounding: (FORCES * length).max(POSITIONS * farthest),
             origin: model.nodes.first().map_or(Vec3::zeros(), |node| node.x),
             wants_forces,
             wants_energy,
             stop: StopRequest::of(stop),
         }
+    }
+
+    /// The lengths that motions are measured by.
+    pub fn size(&self) -> ModelSize {
+        ModelSize { length: self.length, rounding: self.rounding }
     }
 
     /// True for a dynamic analysis.

@@ -151,7 +151,7 @@ impl Run<'_> {
         let ahead = pilot.as_ref().filter(|pilot| control.is_told_by(pilot) && !self.has_kinks());
         let StepError { asked, tolerance, early, .. } = control.error;
         let ahead =
-            ahead.map(|pilot| LookAhead::new(pilot, (asked, tolerance), self.context.length, early < MOST_EARLY));
+            ahead.map(|pilot| LookAhead::new(pilot, (asked, tolerance), self.context.size(), early < MOST_EARLY));
         let mut trace = Trace::new(observer, model.solution.scheme.order() + 1, control.between).looking_ahead(ahead);
         let (outcome, state) = self.once(&mut trace, &schedule, control);
         let predicted = trace.predicted();
@@ -169,9 +169,9 @@ impl Run<'_> {
         }
         control.judged.run = run;
         control.judged.state.clone_from(state);
-        let length = self.context.length;
+        let size = self.context.size();
         let (error, run) = (&control.error, &control.judged.run);
-        let judges = |pilot: &Kept| control.is_told_by(pilot) && error.is_judged_by(run, pilot, length);
+        let judges = |pilot: &Kept| control.is_told_by(pilot) && error.is_judged_by(run, pilot, size);
         let pilot = self.pilot.take().filter(judges);
         let other = control.before.take().map(|before| (OtherRun::Before as TellOther, before));
         let other = other.or(pilot.map(|pilot| (OtherRun::Pilot as TellOther, pilot)));
@@ -282,7 +282,7 @@ impl Run<'_> {
         let GlobalErrorControl { error, pieces, judged, .. } = control;
         let (run, inside) = (std::mem::take(&mut judged.run), self.controller.looks_inside());
         let next = match &other {
-            Some((_, other)) => error.judge(&run, other, self.context.length),
+            Some((_, other)) => error.judge(&run, other, self.context.size()),
             None => Some(error.without_comparison()),
         };
         let dictated = other.as_ref().map_or(is_dictated, |(_, other)| run.has_steps_of(other));

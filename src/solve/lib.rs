@@ -61,6 +61,7 @@ pub mod inner {
     pub use crate::no_convergence::NoConvergence;
     pub use crate::start::start;
     pub use crate::step::load_steps::{LoadSteps, Peak};
+    pub use crate::step::size::ModelSize;
     pub use crate::strategy::anderson::Anderson;
     pub use crate::strategy::rotated_matrix::RotatedMatrix;
     pub use crate::sudden_loads::SuddenLoads;

@@ -96,9 +96,10 @@ impl RowGaps {
         (self.rows, self.time) = (self.rows + 1, time);
     }
 
-    /// The largest motion between rows, as a share of the whole motion of its node; `None` where rows follow all of them. A sine
+    /// The largest motion between rows, as a share of the whole motion of its node; `None` where rows follow all of them, or where it is
+    /// below `rounding`. A sine
     /// with the accelerations of the rows, and with their unexplained ways, has this motion. The rows must zigzag by it too.
-    pub fn largest(&self) -> Option<RowGap> {
+    pub fn largest(&self, rounding: f64) -> Option<RowGap> {
         let rows = self.rows.checked_sub(1).filter(|rows| *rows >= ENOUGH_ROWS)? as f64;
         let gap = |(&node, track): (&usize, &Track)| {
             let [unexplained, acceleration, bend] =
@@ -112,7 +113,12 @@ impl RowGaps {
             let share = amplitude / (track.high - track.low).norm();
             let period = TAU / frequency;
             let is_sparse = track.unresolved as f64 > MOST_UNRESOLVED * rows && period < MOST_ROWS * apart;
-            (is_sparse && (SEEN..MOST).contains(&share)).then_some(RowGap { node, amplitude, share, period })
+            (amplitude > rounding && is_sparse && (SEEN..MOST).contains(&share)).then_some(RowGap {
+                node,
+                amplitude,
+                share,
+                period,
+            })
         };
         self.nodes.iter().zip(&self.tracks).filter_map(gap).max_by(|a, b| a.share.total_cmp(&b.share))
     }

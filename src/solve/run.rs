@@ -344,7 +344,7 @@ impl<'a> Run<'a> {
 
     /// The largest motion between the rows of tables, if they are too far apart to follow it.
     pub fn row_gap(&self) -> Option<RowGap> {
-        self.recorder.row_gaps.largest()
+        self.recorder.row_gaps.largest(self.context.rounding)
     }
 
     /// The remarks on omitted checks.

@@ -379,6 +379,14 @@ pub mod error_controlled {
     pub const SLIGHT: f64 = 2.0;
 }
 
+pub mod context {
+    /// Motion, in parts of the model's length, that rounding of forces in equilibrium causes. The arm of a loader at rest accelerates by 1e-10 of
+    /// gravity, and a step moves it by 1e-13 of its length. A run adds a hundred such steps.
+    pub const FORCES: f64 = 1e-11;
+    /// This motion in parts of the largest coordinate, whose last digits are rounding.
+    pub const POSITIONS: f64 = 100.0 * f64::EPSILON;
+}
+
 pub mod error_measure {
     /// Fraction of a run after which the motion so far is reference enough.
     pub const AHEAD: f64 = 0.2;

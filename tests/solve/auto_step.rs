@@ -276,6 +276,88 @@ fn rest_is_cheap() {
     assert!(done.counts.steps <= 66 && done.rows.iter().all(|row| row[0] == 0.0), "{:?}", done.counts);
 }
 
+/// A boom on a cylinder, with a payload that hangs from it in equilibrium until the cylinder begins to move at t = 1.
+const ARM: &str = r#"
+    environment = { gravity = [0.0, 0.0, -9.81] }
+    bodies = [
+        { name = "boom", center = [1.25, 0.0, 1.0], shape = { kind = "box", size = [2.5, 0.12, 0.25], density = 1500.0 } },
+        { name = "payload", center = [2.5, 0.0, -0.6], mass = 860.0, shape = { kind = "box", size = [0.8, 0.8, 0.8] } },
+    ]
+    actuators = [{ name = "cylinder", from = { ground = [0.4, 0.0, 0.1] }, to = { body = "boom", point = [1.2, 0.0, 0.9] }, motion = { position = 0.3, amplitude = "stroke" } }]
+    [[joints]]
+    name = "A"
+    kind = "revolute"
+    axis = [0.0, 1.0, 0.0]
+    from = { ground = [0.0, 0.0, 1.0] }
+    to = { body = "boom" }
+    [[joints]]
+    name = "B"
+    kind = "revolute"
+    axis = [0.0, 1.0, 0.0]
+    from = { body = "boom", point = [2.5, 0.0, 1.0] }
+    to = { body = "payload" }
+    [amplitudes.stroke]
+    kind = "table"
+    interpolation = "monotone"
+    points = [[0.0, 0.0], [1.0, 0.0], [2.0, 1.0]]
+"#;
+
+/// A mechanism rests until it is driven: rounding moves it by 1e-16 of its size meanwhile, and this is no motion that errors are relative to.
+/// Afterwards it moves as with short steps of one length.
+#[test]
+fn a_mechanism_at_rest_is_no_motion() {
+    let analysis = |end: f64, keys: &str| format!("analysis = {{ kind = \"dynamic\", end_time = {end:?}, {keys} }}\n");
+    let run = |end: f64, keys: &str, scheme: &str| {
+        let model = small(&format!(
+            "{}integrator = {{ scheme = \"{scheme}\" }}\noutput = {{ interval = 0.1 }}\n{ARM}",
+            analysis(end, keys)
+        ));
+        let nodes = ["boom", "payload"].map(|name| node(&model, name));
+        run_to_the_end(&model, &mut |frame| {
+            nodes
+                .iter()
+                .flat_map(|&node| [0, 2].map(|axis| frame.state.nodes[node].x[axis] - model.nodes[node].x[axis]))
+                .collect()
+        })
+    };
+    let reference = run(3.0, "time_step = 0.001", "esdirk3").rows;
+    for scheme in ["generalized-alpha", "bathe", "esdirk3"] {
+        let done = run(3.0, "time_step = \"auto\", error_tolerance = 1e-3", scheme);
+        let e = error(&done.rows, &reference, 0);
+        println!("{scheme}: {e:.2e} in {} steps", done.counts.steps);
+        assert!(e < 2e-3, "{scheme}: {e:e}");
+        // It rests to the end: the longest steps there are, and nothing is said about an error.
+        let rest = run(1.0, "time_step = \"auto\", error_tolerance = 1e-3", scheme);
+        assert!(rest.counts.steps <= 100, "{scheme}: {:?}", rest.counts);
+        assert!(rest.step_error.and_then(|error| error.estimate) == Some(0.0), "{scheme}: {:?}", rest.step_error);
+    }
+}
+
+/// A mass rests on a spring under its weight, to the last digits, and is pushed at t = 1: F/k (1 − cos ωt) from then on.
+#[test]
+fn a_body_at_rest_is_pushed() {
+    let deck = r#"
+        analysis = { kind = "dynamic", end_time = 3.0, time_step = "auto", error_tolerance = 1e-3 }
+        environment = { gravity = [0.0, 0.0, -9.81] }
+        points = { p = [0.3, 0.1, 0.7] }
+        masses = [{ at = "p", mass = 3.0 }]
+        supports = [{ at = "p", fix = ["ux", "uy"] }]
+        links = [{ name = "s", from = { ground = [0.3, 0.1, 0.0] }, to = { node = "p" }, stiffness = 300.0, free_length = 0.7981 }]
+        loads = [{ at = "p", force = [0.0, 0.0, 6.0], amplitude = "push" }]
+        amplitudes.push = { kind = "step", start = 1.0 }
+    "#;
+    let model = small(deck);
+    let p = node(&model, "p");
+    let done = run_to_the_end(&model, &mut |frame| {
+        let (u, t) = (frame.state.nodes[p].x.z - 0.7, frame.state.time);
+        let exact = if t < 1.0 { 0.0 } else { 0.02 * (1.0 - (10.0 * (t - 1.0)).cos()) };
+        vec![u - exact]
+    });
+    let worst = done.rows.iter().map(|row| row[0].abs()).fold(0.0, f64::max) / 0.04;
+    println!("{worst:.2e} in {} steps", done.counts.steps);
+    assert!(worst < 3e-3, "{worst:e}");
+}
+
 /// A load applied at once to one mass on a spring: 1 − cos ωt. Wilson-theta in long steps would overshoot that by far, which must not be
 /// taken for the size of the motion. What errs is the phase, steadily.
 #[test]

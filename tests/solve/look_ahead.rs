@@ -3,7 +3,7 @@
 use rdsolve::math::Vec3;
 use rdsolve::snapshot::{Keep, Snapshot};
 use rdsolve::solve::Kept;
-use rdsolve::solve::inner::{COMPARISONS, LookAhead};
+use rdsolve::solve::inner::{COMPARISONS, LookAhead, ModelSize};
 
 const ASKED: f64 = 1e-3;
 /// Ratio of the errors of a pilot run with steps twice as long, by a scheme of third order.
@@ -36,7 +36,7 @@ fn part(times: usize, predicted: f64) -> Kept {
 }
 
 fn ahead(pilot: &Kept) -> LookAhead<'_> {
-    LookAhead::new(pilot, (ASKED, ASKED), 1.0, true)
+    LookAhead::new(pilot, (ASKED, ASKED), ModelSize { length: 1.0, rounding: 0.0 }, true)
 }
 
 /// The factor on the tolerance, and the predicted error over that asked for if the run ends, after one look.

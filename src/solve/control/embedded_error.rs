@@ -52,7 +52,7 @@ impl EmbeddedErrorController {
             tolerance,
             asked: tolerance,
             next: first,
-            motion: Size::default(),
+            motion: cx.size().least_motion(tolerance),
             first,
             longest: most,
             most,

@@ -98,6 +98,7 @@ impl<'a> ErrorController<'a> {
             Some(_) => [MEAN_OF_STAGES, MEAN * phase_constant(scheme)],
             None => [MEAN, 0.0],
         };
+        let measure = ErrorMeasure::new(cx.model, cx.size(), tolerance);
         ErrorController {
             stepper,
             tolerance,
@@ -114,8 +115,8 @@ impl<'a> ErrorController<'a> {
             covered: 0.0,
             fourth: [vec![Vec6::zeros(); nodes], vec![Vec6::zeros(); nodes]],
             last: None,
-            motion: Size::default(),
-            measure: ErrorMeasure::new(cx.model, cx.length),
+            motion: measure.at_rest(),
+            measure,
             start: State::default(),
             inside: State::default(),
             errors: [vec![Vec6::zeros(); nodes], vec![Vec6::zeros(); nodes]],
@@ -349,7 +350,7 @@ impl StepController for ErrorController<'_> {
             return Err(Failure::ErrorTooLarge { dt });
         }
         let estimate = self.estimate(cx, ws, state, dt);
-        if self.measure.is_waiting() && estimate.motion != Size::default() {
+        if self.measure.begins_with(estimate.motion) {
             self.look_ahead(cx, ws, state)?;
             return Ok(None);
         }

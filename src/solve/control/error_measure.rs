@@ -1,6 +1,6 @@
 //! The reference of errors: the largest motion so far, or that of trial steps ahead.
 
-use crate::step::size::Size;
+use crate::step::size::{ModelSize, Size};
 use crate::tolerances::error_measure::{AHEAD, TRACE};
 use base::math::{Vec6, angular, linear};
 use base::snapshot::keep;
@@ -12,8 +12,10 @@ pub struct ErrorMeasure {
     /// Largest motion of the trial steps, and the time of these steps.
     ahead: Size,
     begun: Option<f64>,
-    /// Largest distance in the scene, the scale between displacements and rotations.
-    extent: f64,
+    /// The largest distance in the scene, the scale between displacements and rotations.
+    length: f64,
+    /// The least motion that errors are relative to.
+    least: Size,
     end_time: f64,
     /// The nodes of bodies: errors of their rotations count.
     bodies: Vec<usize>,
@@ -21,24 +23,30 @@ pub struct ErrorMeasure {
     numbers: Vec<usize>,
 }
 
-keep!(ErrorMeasure { ahead, begun } without { extent, end_time, bodies, numbers });
+keep!(ErrorMeasure { ahead, begun } without { length, least, end_time, bodies, numbers });
 
 impl ErrorMeasure {
-    /// A measure for this model; `extent` is its length.
-    pub fn new(model: &Model, extent: f64) -> ErrorMeasure {
+    /// A measure for this model and this relative error.
+    pub fn new(model: &Model, size: ModelSize, error: f64) -> ErrorMeasure {
         ErrorMeasure {
             ahead: Size::default(),
             begun: None,
-            extent,
+            length: size.length,
+            least: size.least_motion(error),
             end_time: model.analysis.duration(),
             bodies: model.bodies.iter().map(|body| body.node).collect(),
             numbers: model.number_nodes().collect(),
         }
     }
 
-    /// True while nothing has moved.
-    pub fn is_waiting(&self) -> bool {
-        self.begun.is_none()
+    /// The motion of a model at rest. Rounding moves it too, and errors relative to that have no meaning.
+    pub fn at_rest(&self) -> Size {
+        self.least
+    }
+
+    /// True where motion begins with this one.
+    pub fn begins_with(&self, motion: Size) -> bool {
+        self.begun.is_none() && motion != self.least
     }
 
     /// Records that the trial steps from this time on are complete.
@@ -65,14 +73,14 @@ impl ErrorMeasure {
 
     /// The size of a motion as one length.
     pub fn whole(&self, motion: Size) -> f64 {
-        motion.translation.max(motion.rotation * self.extent)
+        motion.translation.max(motion.rotation * self.length)
     }
 
     /// The motion that errors at this time are relative to.
     pub fn reference(&self, motion: Size, time: f64) -> Size {
         let early = self.begun.is_some_and(|begun| time < begun + AHEAD * self.end_time);
         let ahead = if early { self.ahead } else { Size::default() };
-        Size { translation: motion.translation.max(ahead.translation), rotation: motion.rotation.max(ahead.rotation) }
+        motion.max(ahead)
     }
 
     /// The largest of the errors by node, relative to the largest motion.
@@ -84,7 +92,7 @@ impl ErrorMeasure {
         let turn = self.bodies.iter().map(|&body| angular(&errors[body]).norm()).fold(0.0, worst);
         // Nothing moves, so nothing is wrong.
         let part = |error: f64, of: f64| if error == 0.0 { 0.0 } else { error / of };
-        part(error, translation.max(TRACE * rotation * self.extent))
-            .max(part(turn, rotation.max(translation / self.extent)))
+        part(error, translation.max(TRACE * rotation * self.length))
+            .max(part(turn, rotation.max(translation / self.length)))
     }
 }

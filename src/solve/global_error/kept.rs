@@ -2,6 +2,7 @@
 
 use crate::control::{COMPARISONS, comparison_time};
 use crate::frame::Frame;
+use crate::step::size::{ModelSize, Size};
 use crate::tolerances::global_error::SATURATED;
 use crate::tolerances::trace::{EVENTFUL, FEWEST, MOST_NODES, OWN_ESTIMATE, SLOPE, TELLING, USUAL_STEPS};
 use base::math::Vec3;
@@ -159,29 +160,33 @@ impl Kept {
     }
 
     /// The difference of two runs relative to their largest motion: the root mean square over the times of the largest value over nodes and
-    /// bodies. Displacements, rotations and velocities of bodies each refer to their largest value; `extent` is the length of the model,
-    /// which relates translations and rotations. Infinite where a stage has stopped before there was enough to compare.
-    pub fn difference(&self, other: &Kept, extent: f64) -> f64 {
+    /// bodies. Displacements, rotations and velocities of bodies each refer to their largest value; `size` relates translations
+    /// and rotations. Motions of rounding do not differ. Infinite where a stage has stopped before there was enough to compare.
+    pub fn difference(&self, other: &Kept, size: ModelSize) -> f64 {
         match self.times.min(other.times) {
             times if times < FEWEST => f64::INFINITY,
-            times => self.difference_over(other, extent, times),
+            times => self.difference_over(other, size, times),
         }
     }
 
     /// True if two runs have nothing in common: they differ too much over three quarters of the times. Later the difference may no longer grow
     /// with the error of the worse run, but still shows it to a fifth.
-    pub fn has_lost(&self, other: &Kept, extent: f64) -> bool {
+    pub fn has_lost(&self, other: &Kept, size: ModelSize) -> bool {
         let times = 3 * self.times.min(other.times) / 4;
-        times > 0 && self.difference_over(other, extent, times) > SATURATED
+        times > 0 && self.difference_over(other, size, times) > SATURATED
     }
 
     /// The difference over the first times alone.
-    pub(super) fn difference_over(&self, other: &Kept, extent: f64, times: usize) -> f64 {
-        let (displacement, rotation) = self.motion().max(other.motion());
-        let (displacement, rotation) =
-            (displacement.max(1e-6 * rotation * extent), rotation.max(displacement / extent));
-        let (speed, spin) = self.speed().max(other.speed());
-        let (speed, spin) = (speed.max(1e-6 * spin * extent), spin.max(speed / extent));
+    pub(super) fn difference_over(&self, other: &Kept, size: ModelSize, times: usize) -> f64 {
+        let motion = self.motion().max(other.motion());
+        if !size.is_seen(motion) {
+            return 0.0;
+        }
+        let relevant = |Size { translation, rotation }: Size| {
+            (translation.max(1e-6 * rotation * size.length), rotation.max(translation / size.length))
+        };
+        let (displacement, rotation) = relevant(motion);
+        let (speed, spin) = relevant(self.speed().max(other.speed()));
         let relative = |difference: f64, of: f64| if difference == 0.0 { 0.0 } else { difference / of };
         let at = |time: usize| {
             let moved =
@@ -214,15 +219,15 @@ impl Kept {
     }
 
     /// The largest velocity and the largest angular velocity of a body.
-    fn speed(&self) -> Motion {
+    fn speed(&self) -> Size {
         let largest = |of: usize| self.velocities.iter().map(|rates| rates[of].norm()).fold(0.0, f64::max);
-        Motion(largest(0), largest(1))
+        Size { translation: largest(0), rotation: largest(1) }
     }
 
     /// The largest displacement of a node and the largest rotation of a body.
-    fn motion(&self) -> Motion {
-        let moved = self.displacements.iter().map(|u| u.norm()).fold(0.0, f64::max);
-        Motion(moved, self.rotations.iter().map(angle).fold(0.0, f64::max))
+    fn motion(&self) -> Size {
+        let translation = self.displacements.iter().map(|u| u.norm()).fold(0.0, f64::max);
+        Size { translation, rotation: self.rotations.iter().map(angle).fold(0.0, f64::max) }
     }
 }
 
@@ -287,14 +292,6 @@ impl Steps {
     /// The ratio of the sums of the power of lengths, per unit of time.
     fn sums_apart(&self, other: &Steps) -> f64 {
         if self.left > 0.0 { other.left / other.time / (self.left / self.time) } else { 1.0 }
-    }
-}
-
-struct Motion(f64, f64);
-
-impl Motion {
-    fn max(self, other: Motion) -> (f64, f64) {
-        (self.0.max(other.0), self.1.max(other.1))
     }
 }
 

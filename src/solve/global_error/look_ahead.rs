@@ -6,6 +6,7 @@
 
 use super::kept::Kept;
 use crate::control::COMPARISONS;
+use crate::step::size::ModelSize;
 use crate::tolerances::global_error::{AIM, FAR_APART, SATURATED, WITHIN};
 use crate::tolerances::look_ahead::{
     FASTEST, FUTILE, FUTILE_EARLY, JUDGED_AT, LOWEST, MOST, NEAREST, PREDICTED_AT, WORTH,
@@ -19,7 +20,7 @@ pub struct LookAhead<'o> {
     /// The error asked for.
     asked: f64,
     /// The length of the model.
-    extent: f64,
+    size: ModelSize,
     /// True if the run may end early.
     may_end: bool,
     /// The tolerance of the first steps, that of later ones, and a new one that the controller has not received yet.
@@ -37,14 +38,14 @@ pub struct LookAhead<'o> {
     predicted: Option<f64>,
 }
 
-keep!(LookAhead<'_> { first, tolerance, changed, least, time, excess, looked, predicted } without { pilot, asked, extent, may_end });
+keep!(LookAhead<'_> { first, tolerance, changed, least, time, excess, looked, predicted } without { pilot, asked, size, may_end });
 
 impl<'o> LookAhead<'o> {
     /// Nothing predicted yet of a run with this tolerance, whose error is to be as asked.
-    pub fn new(pilot: &'o Kept, (asked, tolerance): (f64, f64), extent: f64, may_end: bool) -> Self {
+    pub fn new(pilot: &'o Kept, (asked, tolerance): (f64, f64), size: ModelSize, may_end: bool) -> Self {
         let (time, looked) = (pilot.between[0], pilot.between[0]);
         let (first, least, changed, excess, predicted) = (tolerance, tolerance, None, 0.0, None);
-        LookAhead { pilot, asked, extent, may_end, first, tolerance, changed, least, time, excess, looked, predicted }
+        LookAhead { pilot, asked, size, may_end, first, tolerance, changed, least, time, excess, looked, predicted }
     }
 
     /// The predicted error of a run that is to end early.
@@ -81,7 +82,7 @@ impl<'o> LookAhead<'o> {
         }
         let apart = run.apart_so_far(self.pilot);
         let half = run.times / 2;
-        let [before, difference] = [half, run.times].map(|times| run.difference_over(self.pilot, self.extent, times));
+        let [before, difference] = [half, run.times].map(|times| run.difference_over(self.pilot, self.size, times));
         if apart <= TELLING || before <= 0.0 || !difference.is_finite() {
             return;
         }

@@ -9,6 +9,7 @@ mod kept;
 mod look_ahead;
 mod trace;
 
+use crate::step::size::ModelSize;
 use crate::tolerances::global_error::{
     AIM, CHANGE, CHANGE_EARLY, CHANGE_WITH_EVENTS, FAR_APART, LOST, SATURATED, WITHIN,
 };
@@ -96,16 +97,16 @@ impl StepError {
 
     /// True if a pilot run shows that the error of a complete run is small enough, or its steps are near enough to tell how large it is. A
     /// comparison run costs less than a further run. A pilot run that has nothing in common with the run shows nothing.
-    pub fn is_judged_by(&self, run: &Kept, pilot: &Kept, extent: f64) -> bool {
-        let (apart, difference) = (run.apart(pilot), run.difference(pilot, extent));
+    pub fn is_judged_by(&self, run: &Kept, pilot: &Kept, size: ModelSize) -> bool {
+        let (apart, difference) = (run.apart(pilot), run.difference(pilot, size));
         let estimate = difference / (apart - 1.0);
-        !pilot.has_lost(run, extent) && (apart < FAR_APART || estimate <= WITHIN * self.asked)
+        !pilot.has_lost(run, size) && (apart < FAR_APART || estimate <= WITHIN * self.asked)
     }
 
     /// Estimates the error from the difference to another run. Returns the tolerance of a further run; `None` where this one is good enough,
     /// or no further one would be better.
-    pub fn judge(&mut self, run: &Kept, other: &Kept, extent: f64) -> Option<f64> {
-        let difference = run.difference(other, extent);
+    pub fn judge(&mut self, run: &Kept, other: &Kept, size: ModelSize) -> Option<f64> {
+        let difference = run.difference(other, size);
         let told = run.is_told_by(other) && difference.is_finite();
         let last = std::mem::replace(&mut self.difference, told.then_some(difference));
         self.apart = run.apart(other);
