@@ -714,6 +714,38 @@ fn cases_that_are_not_kept_stand_in_the_summary() {
     assert_eq!((summary("summary"), lines("summary")), (summary("s").replace("half", "middle"), 25));
 }
 
+/// Peaks between rows are collected too, whatever is kept; another list of numbers has only the rows of the tables.
+#[test]
+fn peaks_between_rows_are_collected() {
+    let collect = "energy = { at = \"energy\", quantity = \"kinetic\", peak = \"max\" }\npull = { at = \"rope\", quantity = \"force\", peak = \"abs\" }\n";
+    let sweep = |deck: &str, keep: &str| {
+        format!(
+            "deck = \"{deck}\"\nkeep = \"{keep}\"\n[vary]\n\"bodies.block.mass\" = [1.0, 4.0]\n[collect]\n{collect}"
+        )
+    };
+    let folder = files("");
+    let at = folder.path();
+    for (deck, every) in [("fine.toml", 1), ("thin.toml", 50)] {
+        fs::write(at.join(deck), format!("{DECK}every = {every}\n")).unwrap();
+    }
+    let summary = |name: &str, deck: &str, keep: &str| {
+        fs::write(at.join(format!("{name}.toml")), sweep(deck, keep)).unwrap();
+        assert_eq!(rdsolve(at, &["sweep", &format!("{name}.toml"), "--quiet"]).status.code(), Some(0));
+        fs::read_to_string(at.join(format!("{name}.out/summary.csv"))).unwrap()
+    };
+    let fine = summary("fine", "fine.toml", "all");
+    for keep in ["all", "failed", "summary"] {
+        assert_eq!(summary(keep, "thin.toml", keep), fine, "{keep}");
+    }
+    // The column may have another name, and comes from the run; another peak comes from the rows.
+    fs::write(at.join("all.toml"), sweep("thin.toml", "all").replace("pull =", "tension =")).unwrap();
+    assert!(rdsolve(at, &["sweep", "all.toml", "--collect", "--quiet"]).status.success());
+    assert_eq!(fs::read_to_string(at.join("all.out/summary.csv")).unwrap(), fine.replace("pull", "tension"));
+    fs::write(at.join("all.toml"), sweep("thin.toml", "all").replace("\"abs\"", "\"max\"")).unwrap();
+    assert!(rdsolve(at, &["sweep", "all.toml", "--collect", "--quiet"]).status.success());
+    assert_ne!(fs::read_to_string(at.join("all.out/summary.csv")).unwrap(), fine);
+}
+
 #[test]
 fn a_table_of_cases_is_a_regular_file() {
     let folder = files("deck = \"deck.toml\"\n[vary]\ntable = \"/dev/zero\"\n");

@@ -27,7 +27,7 @@ use base::diagnostic::{Diagnostic, Source};
 use deck::ParsedText;
 use model::{Model, StepLength};
 use results::checkpoint::{Checkpoint, CheckpointOrigin};
-use results::collected::Collected;
+use results::collected::{FoundNumber, in_words};
 use results::error_bars::ErrorBars;
 use results::log::Log;
 use results::marks::SceneMarks;
@@ -35,7 +35,7 @@ use results::result_json::{
     ReportedCounts, ReportedErrors, ReportedMasses, ReportedMesh, ReportedStepError, RunOrigin, RunResult, Sizes,
     Status, Timings, peak_memory_bytes,
 };
-use results::{Files, FolderLock, claim, wanted};
+use results::{Files, FolderLock, RunKeeps, claim, wanted, wanted_with};
 use solve::plan::Plan;
 use solve::plan::explain::{Explanation, mass_added};
 use solve::system::System;
@@ -85,7 +85,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
         overwrite: args.overwrite || args.resume,
         checkpoints: Some(checkpoints),
         marks: true,
-        only: None,
+        keeps: RunKeeps::FILES,
         quiet: args.quiet,
         mesh_error: args.mesh_error,
         chosen: chosen.as_ref(),
@@ -120,8 +120,8 @@ pub struct Case<'a> {
     pub deck: &'a str,
     /// The digests of the files that the sweep has found when it began.
     pub files: &'a HashMap<PathBuf, Vec<u8>>,
-    /// The numbers kept in place of files; `None` if files are kept.
-    pub only: Option<&'a [Collected]>,
+    /// What its run keeps.
+    pub keeps: RunKeeps<'a>,
 }
 
 /// The end of a case.
@@ -132,17 +132,17 @@ pub struct CaseEnd {
     pub reason: String,
     /// The warnings of the run.
     pub warnings: Vec<String>,
-    /// The numbers kept in place of files, in their order.
-    pub numbers: Option<Vec<Option<f64>>>,
+    /// The numbers found in the rows of every step, in their order.
+    pub numbers: Vec<Option<f64>>,
 }
 
-/// Runs a variant of a deck on one thread, without messages, in a separate folder, and leaves its result unmarked. With `only`, it writes
+/// Runs a variant of a deck on one thread, without messages, in a separate folder, with an unmarked result. Without files, it writes
 /// nothing but checkpoints. The run continues from the checkpoint of a stopped run, or of a killed run whose deck requests checkpoints.
 ///
 /// # Errors
 /// The obstacle: errors of the deck as text, or an error of input/output.
 pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<CaseEnd, CaseFault> {
-    let Case { sets, folder, parsed, deck, files, only } = *case;
+    let Case { sets, folder, parsed, deck, files, keeps } = *case;
     let began = Instant::now();
     let faults = |problems: &[Diagnostic], source: &Source| {
         let errors = problems.iter().filter(|problem| problem.is_error());
@@ -162,7 +162,7 @@ pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<CaseEn
     })?;
     go_on_unless(stop)?;
     loaded.warnings.extend(warnings);
-    let made = || Run::new(&loaded.model, &system, &plan, wanted(&loaded.model), stop);
+    let made = || Run::new(&loaded.model, &system, &plan, wanted_with(&loaded.model, keeps.numbers), stop);
     let made = || made().map_err(|error| CaseFault::Deck(error.to_string()));
     let job = Job {
         loaded: &loaded,
@@ -170,21 +170,21 @@ pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<CaseEn
         overwrite: true,
         checkpoints: Some(CheckpointsWanted {
             origin: CheckpointOrigin {
-                numbers: only.map_or(String::new(), |only| format!("{only:?}")),
+                numbers: format!("{keeps:?}"),
                 ..checkpoint_origin(&loaded, deck.to_owned(), false)
             },
             apart: loaded.model.output.checkpoint,
             keeps_last: false,
         }),
         marks: false,
-        only,
+        keeps,
         quiet: true,
         mesh_error: false,
         chosen: chosen.as_ref(),
         threads: 1,
         stop,
         began,
-        plan: only.is_none().then(|| explained(&loaded, &plan, &system)),
+        plan: keeps.files.then(|| explained(&loaded, &plan, &system)),
         sizes: sizes(&loaded, plan.dofs.unknowns(), system.multipliers()),
         timings: Timings { read_s, plan_s: planning.elapsed().as_secs_f64(), ..Timings::default() },
     };
@@ -290,7 +290,7 @@ struct Ended {
     result: RunResult,
     /// The modes and the energies in lines for the terminal.
     lines: Vec<String>,
-    numbers: Option<Vec<Option<f64>>>,
+    numbers: Vec<Option<f64>>,
 }
 
 impl From<Ended> for CaseEnd {
@@ -308,8 +308,7 @@ struct Job<'a> {
     checkpoints: Option<CheckpointsWanted>,
     /// True if the result is final once written; otherwise the caller marks it, and removes the checkpoint.
     marks: bool,
-    /// The numbers kept in place of files; `None` if files are kept.
-    only: Option<&'a [Collected]>,
+    keeps: RunKeeps<'a>,
     quiet: bool,
     mesh_error: bool,
     /// The settings that `accuracy` has chosen.
@@ -340,7 +339,7 @@ impl Job<'_> {
 
     /// Runs the scene, or the rest of it after a checkpoint, and writes its files; an error is one of input/output.
     fn compute(&self, run: &mut Run, checkpoint: Option<Checkpoint>) -> io::Result<Ended> {
-        let (resumes, writes) = (checkpoint.is_some(), self.only.is_none());
+        let (resumes, writes) = (checkpoint.is_some(), self.keeps.files);
         let log = if writes { self.begin(resumes)? } else { Log::unread() };
         let mut watchers = self.watchers(log, resumes, run)?;
         let looping = Instant::now();
@@ -394,6 +393,7 @@ impl Job<'_> {
             peak_memory_bytes: if writes { peak_memory_bytes() } else { None },
             warnings,
             expectations,
+            collected: self.found(&watchers.files),
             marks: if writes { SceneMarks::of(&self.loaded.models()) } else { SceneMarks::default() },
         };
         let serves = end.status == Status::Stopped || watchers.checkpoints.is_some_and(|last| last.is_over());
@@ -401,9 +401,15 @@ impl Job<'_> {
         Ok(Ended { end, result, lines, numbers: watchers.files.numbers() })
     }
 
+    /// The collected numbers as the result has them.
+    fn found(&self, files: &Files) -> Vec<FoundNumber> {
+        let all = self.keeps.numbers.iter().cloned().zip(files.numbers());
+        all.map(|(wanted, value)| FoundNumber { wanted, value: in_words(value) }).collect()
+    }
+
     /// Writes the result unless numbers alone are kept, and removes a useless checkpoint; for a case the caller does both when its files are safe.
     fn leave(&self, result: &RunResult, checkpoint_serves: bool) -> io::Result<()> {
-        if self.only.is_some() {
+        if !self.keeps.files {
             return Ok(());
         }
         if !self.marks {
@@ -436,7 +442,7 @@ impl Job<'_> {
         // Bars are those of one run from t = 0 on.
         let tells_errors = (by_error(model) || self.tells_mesh_error()) && model.analysis.stage.is_none();
         let options = [self.quiet, tells_errors];
-        let files = Files::waiting(self.folder, self.only.map(<[Collected]>::to_vec));
+        let files = Files::waiting(self.folder, self.keeps);
         let files = if resumes { files } else { files.begin(model)? };
         let mut watchers = Watchers::new(log, files, model, options);
         watchers.checkpoints =
@@ -447,7 +453,6 @@ impl Job<'_> {
         Ok(watchers)
     }
 
-    /// The runner of the stages of the deck.
     /// The plan in the lines that `check` prints, after a line for each stage, and the chosen settings.
     fn plan_in_words(&self) -> Vec<String> {
         let models = self.plan.iter().flat_map(|_| self.loaded.models());
@@ -458,8 +463,9 @@ impl Job<'_> {
         lines.chain(chosen.iter().flat_map(|chosen| chosen.lines())).collect()
     }
 
+    /// The runner of the stages of the deck.
     fn stages(&self) -> StageRunner<'_> {
-        StageRunner { loaded: self.loaded, threads: self.threads, stop: self.stop }
+        StageRunner { loaded: self.loaded, threads: self.threads, stop: self.stop, numbers: self.keeps.numbers }
     }
 
     /// The time of the whole run; the steps and their output needed the `whole`.

@@ -15,7 +15,8 @@ use base::snapshot::{Keep, Snapshot, keep};
 use mechanics::state::State;
 use model::{self, Model};
 use results::checkpoint::Checkpoint;
-use results::{listed, settle_cadence, wanted};
+use results::collected::Collected;
+use results::{listed, settle_cadence, wanted_with};
 use solve::plan::Plan;
 use solve::plan::explain::{Explanation, explain};
 use solve::system::System;
@@ -224,6 +225,8 @@ pub struct StageRunner<'a> {
     pub threads: usize,
     /// The flag that ends a run.
     pub stop: &'a AtomicBool,
+    /// The numbers that are found in the rows of every step.
+    pub numbers: &'a [Collected],
 }
 
 impl StageRunner<'_> {
@@ -251,7 +254,7 @@ impl StageRunner<'_> {
                 Next::End(outcome) => return Ok(outcome),
             };
             let plan = self.begin(&mut model, &system, &course, (watchers, told))?;
-            let made = Run::new(&model, &system, &plan, wanted(&model), self.stop);
+            let made = Run::new(&model, &system, &plan, wanted_with(&model, self.numbers), self.stop);
             let mut run = made.map_err(|error| io::Error::other(error.to_string()))?;
             run.go_on_from(handover);
             let ended = self.run_stage((&model, &mut run), &mut course, (watchers, told))?;
@@ -348,7 +351,7 @@ impl StageRunner<'_> {
                 return Ok(Next::Stage(Box::new(NextStage { model, system, handover })));
             }
             let plan = self.begin(&mut model, &system, course, (watchers, told))?;
-            let made = Run::new(&model, &system, &plan, wanted(&model), self.stop);
+            let made = Run::new(&model, &system, &plan, wanted_with(&model, self.numbers), self.stop);
             let mut modes = made.map_err(|error| io::Error::other(error.to_string()))?;
             modes.go_on_from(handover);
             outcome = self.run_stage((&model, &mut modes), course, (watchers, told))?.0;

@@ -179,6 +179,7 @@ fn text(summary: &ResultSummary, filter: Option<&LowPass>) -> String {
         reason => format!("{}: {reason}", summary.status),
     }];
     lines.extend(summary.warnings.iter().map(|warning| format!("warning: {warning}")));
+    lines.extend(summary.notes.iter().map(|note| format!("note: {note}")));
     lines.extend(summary.expectations.iter().cloned());
     lines.extend(filter.map(|filter| format!("filtered: {}", filter.name())));
     let mut table = "";

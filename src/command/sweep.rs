@@ -281,9 +281,8 @@ impl Sweep<'_> {
             fs::remove_file(&failure)?;
         }
         let source = Source::new(self.deck.display().to_string(), self.text, &sets);
-        let only = self.folder.only();
         let (parsed, files) = (&self.parsed, &self.folder.files);
-        let what = Case { sets: &sets, folder: &folder, parsed, deck: pool.deck, files, only };
+        let what = Case { sets: &sets, folder: &folder, parsed, deck: pool.deck, files, keeps: self.folder.keeps() };
         let ran = catch_unwind(AssertUnwindSafe(|| run_case(source, &what, self.stop)));
         let why = match ran {
             Ok(Ok(CaseEnd { status, reason, warnings, numbers })) => {
@@ -296,10 +295,10 @@ impl Sweep<'_> {
             Err(_) => "the program itself has a fault: the run of this case has panicked".to_owned(),
         };
         let outcome = CaseOutcome::without_result(CaseState::Failed(one_line(&why)));
-        if only.is_none() {
+        if self.folder.keeps().files {
             replace(&failure, why.as_bytes())?;
         }
-        self.folder.let_go(vec![Computed { folder, lock, outcome, numbers: None }])?;
+        self.folder.let_go(vec![Computed { folder, lock, outcome, numbers: Vec::new() }])?;
         Ok(None)
     }
 

@@ -33,7 +33,7 @@ pub struct CheckpointOrigin {
     pub files: Vec<(String, String)>,
     /// True with `--mesh-error`.
     pub mesh_error: bool,
-    /// The list of numbers kept in place of files; empty if files are kept.
+    /// The results that a case of a sweep keeps; empty of another run.
     pub numbers: String,
     /// The level of instructions of the run. It may change, because a scheduler may continue the run on another machine.
     pub instructions: String,
@@ -61,9 +61,7 @@ impl CheckpointOrigin {
             return Some(format!("it was {} --mesh-error", if self.mesh_error { "with" } else { "without" }));
         }
         if self.numbers != now.numbers {
-            return Some(
-                "a sweep with `keep` = \"summary\" has written it, or one that collects other numbers".to_owned(),
-            );
+            return Some("a sweep has written it, or one that keeps or collects something else".to_owned());
         }
         if self.end_time != now.end_time && !(self.is_over && self.end_time < now.end_time) {
             let then = if self.is_over { "" } else { ", which it has not come to: let it come there first" };
@@ -217,7 +215,7 @@ mod tests {
         assert!(differs(&|now| now.deck = "b".into()).contains("the deck has changed"));
         assert!(differs(&|now| now.sets = vec!["a=1".into()]).contains("its --set are none, and now `a=1`"));
         assert!(differs(&|now| now.files = vec![("m.msh".into(), "0".into())]).contains("`m.msh` has changed"));
-        assert!(differs(&|now| now.numbers = "x".into()).contains("collects other numbers"));
+        assert!(differs(&|now| now.numbers = "x".into()).contains("collects something else"));
         assert!(differs(&|now| now.mesh_error = true).contains("without --mesh-error"));
         assert!(differs(&|now| now.end_time = 2.0).contains("to `end_time` = 0, which it has not come to"));
         let over = CheckpointOrigin { end_time: 1.0, is_over: true, ..was.clone() };

@@ -6,6 +6,7 @@ use super::table::{BETWEEN_SETS, CASE, SET, STAGE, TableKind, names_subject};
 use super::table_reader::{TableReader, fields, number, text};
 use base::snapshot::keep;
 use model::ENVELOPE_ENDS;
+use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 use std::io;
 use std::path::Path;
@@ -14,7 +15,7 @@ use std::path::Path;
 const SAME_TIME: f64 = 1e-9;
 
 /// A number that is read from the result of a case.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Collected {
     /// The name of its column.
     pub name: String,
@@ -23,13 +24,22 @@ pub struct Collected {
     /// The column of the table.
     pub quantity: String,
     /// The stage of the rows.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub stage: Option<String>,
     /// The time of the number.
     pub when: CollectedWhen,
 }
 
+impl Collected {
+    /// True for a request of the same number, whatever its column is called.
+    fn is_like(&self, other: &Collected) -> bool {
+        *self == Collected { name: self.name.clone(), ..other.clone() }
+    }
+}
+
 /// The time of a collected number.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum CollectedWhen {
     /// Where it is largest.
     Max,
@@ -43,11 +53,52 @@ pub enum CollectedWhen {
     Time(f64),
 }
 
-/// The collected numbers in the tables of a folder, in their order; `None` if the tables lack one. Each table is read once.
+impl CollectedWhen {
+    /// True for an extreme over time.
+    fn is_peak(self) -> bool {
+        matches!(self, CollectedWhen::Max | CollectedWhen::Min | CollectedWhen::Abs)
+    }
+}
+
+/// A number that a run has found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FoundNumber {
+    /// The request.
+    #[serde(flatten)]
+    pub wanted: Collected,
+    /// The number in digits that read back to the same bits; empty if no row has it.
+    pub value: String,
+}
+
+impl FoundNumber {
+    /// The number; `None` if no row has it.
+    fn number(&self) -> Option<f64> {
+        self.value.parse().ok()
+    }
+}
+
+/// Collected numbers as a summary and a result have them.
+pub fn in_words(number: Option<f64>) -> String {
+    number.map_or(String::new(), |number| format!("{number:?}"))
+}
+
+/// The collected numbers of a folder, in their order: those that its run has `found` in the rows of every step, others from its tables. `None` if
+/// the tables lack one. Each table is read once.
 ///
 /// # Errors
 /// A table cannot be read; the error names it.
-pub fn collect(folder: &Path, wanted: &[Collected]) -> io::Result<Vec<Option<f64>>> {
+pub fn collect(folder: &Path, wanted: &[Collected], found: &[FoundNumber]) -> io::Result<Vec<Option<f64>>> {
+    let known = |one: &Collected| found.iter().find(|other| other.wanted.is_like(one));
+    if let Some(all) = wanted.iter().map(|one| known(one).map(FoundNumber::number)).collect() {
+        return Ok(all);
+    }
+    let in_tables = search_tables(folder, wanted)?;
+    let both = wanted.iter().zip(in_tables);
+    Ok(both.map(|(one, in_tables)| known(one).map_or(in_tables, FoundNumber::number)).collect())
+}
+
+/// The numbers in the tables of a folder.
+fn search_tables(folder: &Path, wanted: &[Collected]) -> io::Result<Vec<Option<f64>>> {
     let mut all = Vec::new();
     for kind in TABLES {
         let path = folder.join(kind.file);
@@ -73,6 +124,11 @@ pub fn found<'s>(tables: impl Iterator<Item = &'s RowSearch>, count: usize) -> V
         found[search.place] = found[search.place].or(search.number());
     }
     found
+}
+
+/// True if a table may have an extreme among these numbers.
+pub(super) fn has_peak(kind: &TableKind, wanted: &[Collected]) -> bool {
+    asked_of(kind, wanted).any(|(_, _, one)| one.when.is_peak())
 }
 
 /// The numbers that a table may have. Each comes with its place in the list and with the rank of the table: the lowest rank gives the number.
@@ -264,6 +320,11 @@ impl RowSearch {
         }
     }
 
+    /// True if it looks for an extreme, which may lie between the rows of a file.
+    pub fn has_peaks(&self) -> bool {
+        self.searches.iter().any(|search| search.wanted.when.is_peak())
+    }
+
     /// The results so far, to go back to.
     pub fn so_far(&self) -> Vec<FoundSoFar> {
         self.searches.iter().map(|search| search.found.clone()).collect()
@@ -289,11 +350,10 @@ impl Search {
     /// The number of the rows so far. There is none for one time of several subjects, unless it is a force, and none for moments about
     /// several points: they have no sum.
     fn number(&self) -> Option<f64> {
-        let is_extreme = !matches!(self.wanted.when, CollectedWhen::End | CollectedWhen::Time(_));
         let is_one = match self.direction {
             _ if !self.found.has_others => true,
             Some(direction) => direction.starts_with('u'),
-            None => is_extreme,
+            None => self.wanted.when.is_peak(),
         };
         match &self.found.sum {
             _ if !is_one => None,

@@ -1,7 +1,7 @@
-//! The files that grow with a run: the deck selects the files, and every accepted step goes to each. A sweep that keeps no folders has the
-//! collected numbers found in the rows instead.
+//! The files that grow with a run: the deck selects the files, and every accepted step goes to each. A sweep also has collected numbers found
+//! in rows, which are formed at every step for it; without folders it keeps these numbers alone.
 
-use super::collected::{Collected, RowSearch, found};
+use super::collected::{Collected, RowSearch, found, has_peak};
 use super::disk::at;
 use super::envelopes::Envelopes;
 use super::expect::needs;
@@ -34,24 +34,32 @@ struct OpenTable {
 }
 
 impl OpenTable {
-    /// The table as a file, or as a search for the numbers wanted of it; `None` if none are.
-    fn open(
-        dir: &Path,
-        kind: &'static TableKind,
-        model: &Model,
-        only: Option<&[Collected]>,
-    ) -> io::Result<Option<OpenTable>> {
-        let stage = model.analysis.stage.as_ref();
-        let mut file = match only.map(|wanted| search_of(kind, model, wanted)) {
-            None => TableFile::open(dir, kind.file, &kind.header(model).join(","))?,
-            Some(Some(search)) => TableFile::searched(search, TableMark::of(kind.file)),
-            Some(None) => return Ok(None),
-        };
-        if let Some(stage) = stage {
+    /// The table of a stage that begins.
+    fn begin(kind: &'static TableKind, mut file: TableFile, model: &Model) -> io::Result<OpenTable> {
+        if let Some(stage) = &model.analysis.stage {
             file.begin_stage(&stage.name)?;
         }
-        Ok(Some(OpenTable { kind, file, write: Some((kind.rows)(model)) }))
+        Ok(OpenTable { kind, file, write: Some((kind.rows)(model)) })
     }
+
+    /// True if it has rows of every accepted step.
+    fn takes_every_step(&self) -> bool {
+        self.kind.every_step || self.file.search().is_some_and(RowSearch::has_peaks)
+    }
+}
+
+/// What a run keeps.
+#[derive(Debug, Clone, Copy)]
+pub struct RunKeeps<'a> {
+    /// True if it keeps files.
+    pub files: bool,
+    /// The numbers that are found in the rows of every step.
+    pub numbers: &'a [Collected],
+}
+
+impl RunKeeps<'_> {
+    /// Files alone.
+    pub const FILES: RunKeeps<'static> = RunKeeps { files: true, numbers: &[] };
 }
 
 /// The search for the numbers wanted of a table; `None` if it has none of them.
@@ -67,8 +75,8 @@ pub struct Files {
     envelopes: Envelopes,
     frd: Option<FrdFile>,
     flushed: Instant,
-    /// The numbers kept in place of files; `None` if files are kept.
-    only: Option<Vec<Collected>>,
+    writes: bool,
+    numbers: Vec<Collected>,
 }
 
 /// How far the files of a run had come at a checkpoint.
@@ -87,14 +95,14 @@ impl Files {
     /// # Errors
     /// A file cannot be made.
     pub fn open(dir: &Path, model: &Model) -> io::Result<Files> {
-        Files::waiting(dir, None).begin(model)
+        Files::waiting(dir, RunKeeps::FILES).begin(model)
     }
 
-    /// No files yet, until [`Files::begin`] makes them or [`Files::go_on`] opens those of a checkpoint. With `only`, nothing but these
-    /// numbers is kept, and no file is made.
-    pub fn waiting(dir: &Path, only: Option<Vec<Collected>>) -> Files {
+    /// No files yet, until [`Files::begin`] makes them or [`Files::go_on`] opens those of a checkpoint.
+    pub fn waiting(dir: &Path, keeps: RunKeeps) -> Files {
         let (dir, tables, envelopes) = (dir.to_owned(), Vec::new(), Envelopes::default());
-        Files { dir, tables, fields: None, frd: None, envelopes, flushed: Instant::now(), only }
+        let (writes, numbers) = (keeps.files, keeps.numbers.to_vec());
+        Files { dir, tables, fields: None, frd: None, envelopes, flushed: Instant::now(), writes, numbers }
     }
 
     /// Creates the folder and the files of this model.
@@ -103,8 +111,8 @@ impl Files {
     /// A file cannot be made.
     pub fn begin(mut self, model: &Model) -> io::Result<Files> {
         let dir = &self.dir;
-        let kept = model.output.fields.filter(|_| self.only.is_none()).map(|files| files.format);
-        if self.only.is_none() {
+        let kept = model.output.fields.filter(|_| self.writes).map(|files| files.format);
+        if self.writes {
             fs::create_dir_all(dir).map_err(|e| at(dir, e))?;
         }
         self.fields = (kept == Some(FieldFormat::Vtu)).then(|| Fields::open(dir, model)).transpose()?;
@@ -117,17 +125,24 @@ impl Files {
     /// Opens the tables of a model that are not open yet.
     fn open_tables(&mut self, model: &Model) -> io::Result<()> {
         for &kind in TABLES.iter().filter(|kind| (kind.wanted)(model)) {
-            if !self.tables.iter().any(|table| std::ptr::eq(table.kind, kind)) {
-                self.tables.extend(OpenTable::open(&self.dir, kind, model, self.only.as_deref())?);
+            if self.tables.iter().any(|table| std::ptr::eq(table.kind, kind)) {
+                continue;
+            }
+            if self.writes {
+                let file = TableFile::open(&self.dir, kind.file, &kind.header(model).join(","))?;
+                self.tables.push(OpenTable::begin(kind, file, model)?);
+            }
+            if let Some(search) = search_of(kind, model, &self.numbers) {
+                let file = TableFile::searched(search, TableMark::of(kind.file));
+                self.tables.push(OpenTable::begin(kind, file, model)?);
             }
         }
         Ok(())
     }
 
-    /// The numbers kept in place of files, `None` for each that no row has; `None` if files are kept.
-    pub fn numbers(&self) -> Option<Vec<Option<f64>>> {
-        let only = self.only.as_ref()?;
-        Some(found(self.tables.iter().filter_map(|table| table.file.search()), only.len()))
+    /// The numbers found in rows, `None` for each that no row has.
+    pub fn numbers(&self) -> Vec<Option<f64>> {
+        found(self.tables.iter().filter_map(|table| table.file.search()), self.numbers.len())
     }
 
     /// Goes on with the files of a checkpoint in the stage of this model, as they were then.
@@ -136,13 +151,13 @@ impl Files {
     /// A file cannot be opened, or has changed since the checkpoint.
     pub fn go_on(&mut self, model: &Model, mark: FilesMark) -> io::Result<()> {
         let has = |kind: &TableKind| mark.tables.iter().any(|mark| mark.file == kind.file);
-        if let Some(kind) = TABLES.iter().find(|kind| self.only.is_none() && (kind.wanted)(model) && !has(kind)) {
+        if let Some(kind) = TABLES.iter().find(|kind| self.writes && (kind.wanted)(model) && !has(kind)) {
             let message = format!("the checkpoint has no {}: it is of a run with other output", kind.file);
             return Err(at(&self.dir, io::Error::new(io::ErrorKind::InvalidData, message)));
         }
         for mark in mark.tables {
             let Some(&kind) = TABLES.iter().find(|kind| kind.file == mark.file) else { continue };
-            let search = self.only.as_ref().and_then(|wanted| search_of(kind, model, wanted));
+            let search = if mark.is_file() { None } else { search_of(kind, model, &self.numbers) };
             let file = match search {
                 Some(search) => TableFile::searched(search, mark),
                 None => TableFile::reopen(&self.dir, mark)?,
@@ -211,7 +226,8 @@ impl Files {
 
     /// A warning for each table with fields that had to stay empty, in words.
     pub fn empty_fields(&self) -> Vec<String> {
-        let told = self.tables.iter().filter_map(|table| Some((table.kind.file, table.file.empty_fields()?)));
+        let are_kept = self.tables.iter().filter(|table| table.file.search().is_none() == self.writes);
+        let told = are_kept.filter_map(|table| Some((table.kind.file, table.file.empty_fields()?)));
         told.map(|(file, EmptyFields { since, count })| {
             let fields = if count == 1 { "field is" } else { "fields are" };
             format!(
@@ -234,12 +250,14 @@ pub fn names(model: &Model) -> Vec<&'static str> {
 impl Observer for Files {
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         let case = frame.case.and_then(|case| case.name);
-        for (index, OpenTable { kind, file, write }) in self.tables.iter_mut().enumerate() {
+        for (index, table) in self.tables.iter_mut().enumerate() {
+            let is_due = frame.due || table.takes_every_step();
+            let OpenTable { kind, file, write } = table;
             let Some(write) = write else { continue };
             if let Some((_, name)) = case {
                 file.begin_case(name);
             }
-            if frame.due || kind.every_step {
+            if is_due {
                 write(file, frame)?;
             }
             if let Some((place, _)) = case.filter(|_| !kind.every_step) {
@@ -296,7 +314,8 @@ impl Observer for Files {
         if model.analysis.begin > 0.0 {
             return self.tables.iter_mut().try_for_each(|table| table.file.withdraw_stage());
         }
-        *self = Files::waiting(&self.dir, self.only.take()).begin(model)?;
+        let keeps = RunKeeps { files: self.writes, numbers: &std::mem::take(&mut self.numbers) };
+        *self = Files::waiting(&self.dir, keeps).begin(model)?;
         Ok(())
     }
 }
@@ -325,8 +344,14 @@ fn in_words(cadence: Cadence) -> String {
 
 /// The results that the solver must compute for the tables, fields and expectations of a model.
 pub fn wanted(model: &Model) -> Wanted {
+    wanted_with(model, &[])
+}
+
+/// Like [`wanted`], with extremes that are found in the rows of every step.
+pub fn wanted_with(model: &Model, numbers: &[Collected]) -> Wanted {
     // Tables that a sweep leaves out count too: results do not depend on `keep`.
-    let tables = TABLES.iter().copied().filter(|kind| (kind.wanted)(model)).map(|kind| kind.needs);
+    let tables = TABLES.iter().copied().filter(|kind| (kind.wanted)(model));
+    let tables = tables.map(|kind| if has_peak(kind, numbers) { kind.needs.at_every_step() } else { kind.needs });
     let drawn = (Wanted::PLASTIC_STRAINS | Wanted::SHELLS | Wanted::NODAL_RESULTANTS).where_drawn();
     // Stresses of fibres are those of integration points.
     let drawn = if model.yields() { drawn | Wanted::SECTIONS.where_drawn() } else { drawn };

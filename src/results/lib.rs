@@ -40,7 +40,7 @@ mod torn;
 mod vtu;
 
 pub use disk::{at, make_safe, replace};
-pub use files::{Files, FilesMark, listed, wanted};
+pub use files::{Files, FilesMark, RunKeeps, listed, wanted, wanted_with};
 pub use folder::claim;
 pub use folder::{holds_run, remove, remove_empty, remove_run};
 pub use lock::{FolderLock, host};

@@ -1,5 +1,6 @@
 //! result.json: the outcome of a run in one object that a script can read.
 
+use super::collected::FoundNumber;
 use super::disk::{at, create, replace};
 use super::error_bars::ErrorBar;
 use super::expect::Verdict;
@@ -85,6 +86,9 @@ pub struct RunResult {
     pub warnings: Vec<String>,
     /// The judgements on the expectations, in the order of the deck.
     pub expectations: Vec<Verdict>,
+    /// The numbers that a sweep collects of the rows of every step.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub collected: Vec<FoundNumber>,
     /// Supports, loads, joints and sections of beams, for pages and pictures.
     pub marks: SceneMarks,
 }
@@ -393,6 +397,7 @@ mod tests {
             peak_memory_bytes: None,
             warnings: vec![],
             expectations: vec![],
+            collected: vec![],
             marks: SceneMarks::default(),
         };
         result.write(dir.path()).unwrap();

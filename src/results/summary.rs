@@ -25,6 +25,8 @@ pub struct ResultSummary {
     pub reason: String,
     /// All warnings: of the run, of the filter, and of tables that end within a row.
     pub warnings: Vec<String>,
+    /// Remarks on the summary itself.
+    pub notes: Vec<String>,
     /// The expected values with what became of them, in words.
     pub expectations: Vec<String>,
     /// The columns of all tables.
@@ -78,6 +80,7 @@ impl ResultSummary {
         let mut columns = Vec::new();
         let is_there = |file: &str| folder.join(file).exists();
         let mut doubts = Vec::new();
+        let mut apart = 1;
         let takes =
             |file: &str, column: &str| only.is_empty() || only.iter().any(|selector| selector.takes(file, column));
         for table in TABLES.iter().filter(|table| !table.every_step && is_there(table.file)) {
@@ -87,7 +90,7 @@ impl ResultSummary {
                 Some(filter) if table.columns().any(|column| takes(table.file, column.name)) => {
                     filtered((&folder.join(table.file), table.file), rows, (filter, &takes), &mut doubts)?
                 }
-                _ => of_table(table.file, rows)?,
+                _ => of_table(table.file, rows, &mut apart)?,
             };
             columns.extend(of_table.into_iter().filter(|column| takes(&column.table, &column.column)));
         }
@@ -108,6 +111,7 @@ impl ResultSummary {
                 .chain(doubts)
                 .chain(torn_tables(folder)?)
                 .collect(),
+            notes: (apart > 1).then(|| rows_apart(apart)).into_iter().collect(),
             expectations: list("expectations").map(expectation).collect(),
             columns,
         })
@@ -134,8 +138,16 @@ fn expectation(one: &Value) -> String {
     format!("{mark} {label}: {}{bars}, {wanted} {}", number("value"), number("expected"))
 }
 
-/// The extremes of all columns of numbers of a table; none where it has no rows.
-fn of_table(file: &str, mut rows: TableReader) -> io::Result<Vec<ColumnSummary>> {
+/// The remark on extremes between rows.
+fn rows_apart(steps: usize) -> String {
+    format!(
+        "rows stand up to {steps} steps apart, and extremes between them are not in tables. `peak` in `[[expect]]` and in `[collect]` of a sweep \
+         takes every step, and with `every` = 1 in `[output]` tables have all of them"
+    )
+}
+
+/// The extremes of all columns of numbers of a table; none where it has no rows. `apart` grows to the largest number of steps from row to row.
+fn of_table(file: &str, mut rows: TableReader, apart: &mut usize) -> io::Result<Vec<ColumnSummary>> {
     let Some(time_at) = rows.column("time") else { return Ok(Vec::new()) };
     let is_number = |place: &usize| !rows.is_key(*place) && *place != time_at && rows.header[*place] != "step";
     let (keys, places): (Vec<usize>, Vec<usize>) = (
@@ -146,12 +158,17 @@ fn of_table(file: &str, mut rows: TableReader) -> io::Result<Vec<ColumnSummary>>
     let width = rows.header.len();
     let mut found: Vec<Option<[Extremum; 3]>> = vec![None; places.len()];
     let mut last = f64::NEG_INFINITY;
+    let (step_at, mut step) = (rows.column("step"), None);
     let mut ragged = None;
     while let Some(row) = rows.next_row()? {
         let row: Vec<&[u8]> = fields(row).collect();
         if row.len() != width {
             ragged = Some(row.len());
             break;
+        }
+        if let Some(now) = step_at.map(|place| number(row[place])) {
+            *apart = (*apart).max((now - step.unwrap_or(now)) as usize);
+            step = Some(now);
         }
         let time = number(row[time_at]);
         // A load that falls is at one time more than once; the last rows are those of the end.

@@ -68,6 +68,11 @@ pub struct TableMark {
 }
 
 impl TableMark {
+    /// True if its rows are in a file, which has a header at least; false if they go to a search.
+    pub fn is_file(&self) -> bool {
+        self.written > 0
+    }
+
     /// The beginning of a table.
     pub fn of(file: &str) -> TableMark {
         TableMark { file: file.to_owned(), ..TableMark::default() }

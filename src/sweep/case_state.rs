@@ -75,8 +75,8 @@ pub struct Computed {
     pub lock: FolderLock,
     /// Its end; a pending case was stopped by a signal, and keeps its checkpoint for the continuation.
     pub outcome: CaseOutcome,
-    /// The numbers of a case without files, `None` for each that no table has; `None`: the case has files.
-    pub numbers: Option<Vec<Option<f64>>>,
+    /// The collected numbers, `None` for each that no table has; none of a case without a result.
+    pub numbers: Vec<Option<f64>>,
 }
 
 /// The first lines of a reason as one.

@@ -12,9 +12,9 @@ use base::diagnostic::Source;
 use base::text_file::{read_regular, read_text};
 use deck::Deck;
 use rayon::prelude::*;
-use results::collected::{Collected, collect};
+use results::collected::{Collected, FoundNumber, collect, in_words};
 use results::result_json::Status;
-use results::{at, result_json, torn_tables};
+use results::{RunKeeps, at, result_json, torn_tables};
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
@@ -56,16 +56,16 @@ impl SweepFolder {
         self.path.join(&self.names[case])
     }
 
-    /// The numbers kept of a case in place of files; `None` where folders may stay.
-    pub fn only(&self) -> Option<&[Collected]> {
-        (self.keep == KeptFolders::Summary).then_some(&self.collect)
+    /// The results that the run of a case keeps.
+    pub fn keeps(&self) -> RunKeeps<'_> {
+        RunKeeps { files: self.keep != KeptFolders::Summary, numbers: &self.collect }
     }
 
     /// The state of a case.
     pub fn state(&self, case: usize) -> CaseState {
         match self.records.find(&self.names[case]) {
             Some(record) => record.state(),
-            None => found(&self.case(case)).state,
+            None => found(&self.case(case)).0.state,
         }
     }
 
@@ -80,11 +80,8 @@ impl SweepFolder {
         let mut records = Vec::new();
         for Computed { folder, outcome, numbers, .. } in &go {
             let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            let numbers = match numbers {
-                Some(numbers) if stands(&outcome.state) => in_words(numbers),
-                _ => self::numbers(folder, &outcome.state, &self.collect)?,
-            };
-            records.push((name, outcome, numbers));
+            let numbers = if stands(&outcome.state) { numbers.clone() } else { vec![None; self.collect.len()] };
+            records.push((name, outcome, numbers.into_iter().map(in_words).collect()));
         }
         if !records.is_empty() {
             self.records.add(&records)?;
@@ -169,9 +166,13 @@ impl SweepFolder {
             let (outcome, numbers) = match self.records.find(&self.names[case]) {
                 Some(record) => (record.outcome(), record.numbers),
                 None => {
-                    let outcome = found(&self.case(case));
-                    let numbers = numbers(&self.case(case), &outcome.state, wanted)?;
-                    (outcome, numbers)
+                    let folder = self.case(case);
+                    let (outcome, of_run) = found(&folder);
+                    let numbers = match stands(&outcome.state) {
+                        true => collect(&folder, wanted, &of_run)?,
+                        false => vec![None; wanted.len()],
+                    };
+                    (outcome, numbers.into_iter().map(in_words).collect())
                 }
             };
             let state = outcome.state.word().to_owned();
@@ -217,11 +218,11 @@ impl SweepFolder {
     }
 }
 
-/// The outcome of a case, from its folder.
-fn found(folder: &Path) -> CaseOutcome {
+/// The outcome of a case and the numbers that its run has found, from its folder.
+fn found(folder: &Path) -> (CaseOutcome, Vec<FoundNumber>) {
     // A power cut may leave an empty one.
     if let Some(reason) = read_text(folder.join(FAILURE)).ok().filter(|reason| !reason.is_empty()) {
-        return CaseOutcome::without_result(CaseState::Failed(one_line(&reason)));
+        return (CaseOutcome::without_result(CaseState::Failed(one_line(&reason))), Vec::new());
     }
     /// The entries of a result that say how a run ended.
     #[derive(Deserialize)]
@@ -229,27 +230,21 @@ fn found(folder: &Path) -> CaseOutcome {
         status: Status,
         reason: String,
         warnings: Vec<String>,
+        #[serde(default)]
+        collected: Vec<FoundNumber>,
     }
     let result = read_regular(folder.join(result_json::NAME)).ok();
     match result.and_then(|bytes| serde_json::from_slice::<RunEnd>(&bytes).ok()) {
-        Some(RunEnd { status, reason, warnings }) => CaseOutcome::of(status, &reason, &warnings),
-        None => CaseOutcome::without_result(CaseState::Pending),
+        Some(RunEnd { status, reason, warnings, collected }) => {
+            (CaseOutcome::of(status, &reason, &warnings), collected)
+        }
+        None => (CaseOutcome::without_result(CaseState::Pending), Vec::new()),
     }
 }
 
 /// True for a case whose tables are complete.
 fn stands(state: &CaseState) -> bool {
     matches!(state, CaseState::Done | CaseState::Missed(_))
-}
-
-/// The numbers of a case in the summary: empty if its tables have none, or if it is incomplete.
-fn numbers(folder: &Path, state: &CaseState, wanted: &[Collected]) -> io::Result<Vec<String>> {
-    Ok(in_words(&if stands(state) { collect(folder, wanted)? } else { vec![None; wanted.len()] }))
-}
-
-/// Collected numbers as the summary has them.
-fn in_words(numbers: &[Option<f64>]) -> Vec<String> {
-    numbers.iter().map(|number| number.map_or(String::new(), |number| format!("{number:?}"))).collect()
 }
 
 /// Computes the names of cases: 16 hexadecimal digits of a SHA-256 each.

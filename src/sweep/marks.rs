@@ -25,8 +25,10 @@ pub fn mark_all(within: &SweepFolder, computed: &Receiver<Computed>) -> io::Resu
         }
         next = Instant::now() + APART;
         // A case that a signal has stopped is pending, and stays; without files, its checkpoint is safe already.
-        let mut stay = within.let_go(cases)?;
-        stay.retain(|case| case.numbers.is_none());
+        let stay = within.let_go(cases)?;
+        if !within.keeps().files {
+            continue;
+        }
         if !stay.is_empty() {
             make_safe(&within.path, &stay.iter().map(|case| case.folder.clone()).collect::<Vec<_>>())?;
         }
@@ -63,7 +65,7 @@ mod tests {
             fs::write(folder.join("result.json.tmp"), "{}").unwrap();
             fs::write(Checkpoint::path(folder), "state").unwrap();
             let outcome = CaseOutcome::without_result(state);
-            done.send(Computed { folder: folder.clone(), lock, outcome, numbers: None }).unwrap();
+            done.send(Computed { folder: folder.clone(), lock, outcome, numbers: Vec::new() }).unwrap();
         }
         assert!(folders.iter().all(|folder| !folder.join("result.json").exists()));
         drop(done);

@@ -30,7 +30,7 @@ const WIDE: Known = &[
     ("import/file_content.rs: StepCard", 16),
     ("model/data/model.rs: Model", 18),
     ("model/data/output.rs: Output", 17),
-    ("results/result_json.rs: RunResult", 16),
+    ("results/result_json.rs: RunResult", 17),
     ("solve/derived.rs: Derived", 16),
     ("solve/frame.rs: Frame", 17),
     ("solve/workspace.rs: Workspace", 17),

@@ -5,7 +5,7 @@ use crate::support::grid::Grid;
 use rdsolve::model::{Cadence, Expect, ExpectAt, FieldFiles, FieldFormat, Model, PartIndex, PartKind, Tolerance, When};
 use rdsolve::output::collected::{Collected, CollectedWhen, collect};
 use rdsolve::output::expect::{Expectations, quantities};
-use rdsolve::output::{Files, TABLES};
+use rdsolve::output::{Files, RunKeeps, TABLES};
 use rdsolve::solve::Observer;
 use std::fs;
 use std::path::Path;
@@ -141,19 +141,20 @@ fn collected_numbers_are_those_of_the_files() {
             }
         }
     }
-    let read = collect(dir.path(), &wanted).unwrap();
+    let read = collect(dir.path(), &wanted, &[]).unwrap();
     let found = read.iter().flatten().count();
     assert!(found > 1000 && found < wanted.len(), "{found} of {}", wanted.len());
     let none = dir.path().join("none");
-    let mut files = Files::waiting(&none, Some(wanted.clone())).begin(&model).unwrap();
+    let keeps = RunKeeps { files: false, numbers: &wanted };
+    let mut files = Files::waiting(&none, keeps).begin(&model).unwrap();
     show(&mut files, &model, 0, 4);
     let mark = files.mark().unwrap();
     show(&mut files, &model, 5, 7);
-    let mut files = Files::waiting(&none, Some(wanted.clone()));
+    let mut files = Files::waiting(&none, keeps);
     files.go_on(&model, mark).unwrap();
     show(&mut files, &model, 5, 10);
     files.finish().unwrap();
-    for ((wanted, read), found) in wanted.iter().zip(&read).zip(files.numbers().unwrap()) {
+    for ((wanted, read), found) in wanted.iter().zip(&read).zip(files.numbers()) {
         assert_eq!(read.map(f64::to_bits), found.map(f64::to_bits), "{wanted:?}: {read:?}, {found:?}");
     }
     assert!(!none.exists());
@@ -171,7 +172,7 @@ fn a_resumed_run_leaves_the_same_files() {
     let mark = files.mark().unwrap();
     show(&mut files, &model, 5, 7);
     files.finish().unwrap();
-    let mut files = Files::waiting(resumed.path(), None);
+    let mut files = Files::waiting(resumed.path(), RunKeeps::FILES);
     files.go_on(&model, mark).unwrap();
     show(&mut files, &model, 5, 10);
     files.finish().unwrap();
