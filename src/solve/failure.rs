@@ -185,6 +185,15 @@ pub enum Failure {
         /// The length of the step.
         dt: f64,
     },
+    /// A prescribed joint coordinate goes beyond the reach of the linkage.
+    OutOfReach {
+        /// The name of the joint.
+        name: String,
+        /// The prescribed change of the coordinate at the last step.
+        position: f64,
+        /// The force of the drive over the largest other force.
+        times: f64,
+    },
     /// There are no modes about the state.
     Modes(ModesFault),
     /// The motion left the range of numbers.
@@ -224,6 +233,7 @@ keep_either!(Failure {
     24 => Buckles(instability),
     25 => GivenRotationLost { label },
     26 => PathCreeps { steps, from, to },
+    27 => OutOfReach { name, position, times },
 });
 
 /// A residual force, or a gap, with its name.
@@ -436,6 +446,13 @@ impl Failure {
                     .to_owned()
             }
             Failure::ConstraintsViolated { inertias, .. } => constraints_violated(inertias),
+            Failure::OutOfReach { name, position, times } => format!(
+                "`{name}` prescribes a `position` beyond the reach of the linkage: near {} its force is {} times the largest other force, for the links \
+                 come to lie in one line. Prescribe less than {}, or move the ends of `{name}`",
+                to_digits(*position, 4),
+                to_digits(*times, 2),
+                to_digits(*position, 4)
+            ),
             Failure::ContactNotResolved { .. } | Failure::ContactNotClosed { .. } => self.message_of_contact(),
             Failure::BushingTurnedOver { .. }
             | Failure::BushingTurnsTooFar { .. }

@@ -29,6 +29,7 @@ pub mod modes;
 mod modes_at_end;
 mod no_convergence;
 mod node_chunks;
+mod out_of_reach;
 mod outcome;
 pub mod plan;
 mod recorder;

@@ -3,6 +3,7 @@
 use super::context::Context;
 use super::failure::Failure;
 use super::frame::Observer;
+use super::out_of_reach;
 use super::outcome::Outcome;
 use super::recorder::{AcceptedStep, Recorder};
 use super::report::StepReport;
@@ -81,7 +82,7 @@ impl March<'_, '_> {
                 let time = self.state.time;
                 self.pause(controller).err().unwrap_or(Outcome::stopped(time))
             }
-            failure => self.failed(failure),
+            failure => self.given_up(failure),
         }
     }
 
@@ -151,6 +152,12 @@ impl March<'_, '_> {
     /// The outcome of a run that ends here by a failure.
     pub fn failed(&self, failure: Failure) -> Outcome {
         Outcome::of(failure, self.state.time)
+    }
+
+    /// The outcome of a run that ends here because no step is short enough.
+    pub fn given_up(&mut self, failure: Failure) -> Outcome {
+        let failure = out_of_reach::explained(self.cx, self.ws, self.state, failure);
+        self.failed(failure)
     }
 
     /// Shows the state at t = 0 to the observer.

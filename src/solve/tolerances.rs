@@ -379,6 +379,12 @@ pub mod error_controlled {
     pub const SLIGHT: f64 = 2.0;
 }
 
+pub mod out_of_reach {
+    /// Force of a drive over the largest other force on a node, above which the links lie in one line: to a third of a degree. Levers and gears
+    /// of machines stay below a hundred.
+    pub const MOST: f64 = 200.0;
+}
+
 pub mod context {
     /// Motion, in parts of the model's length, that rounding of forces in equilibrium causes. The arm of a loader at rest accelerates by 1e-10 of
     /// gravity, and a step moves it by 1e-13 of its length. A run adds a hundred such steps.

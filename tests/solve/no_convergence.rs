@@ -151,3 +151,52 @@ fn a_step_that_is_too_long_is_no_limit_load() {
         assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
     }
 }
+
+/// A crank of 1 m and a cylinder of 1 m from a fixed point: together they reach 2 m. A longer stroke names the cylinder and the stroke at which both
+/// lie in one line, √2 from the length at a right angle, in a motion as in load steps.
+#[test]
+fn a_drive_beyond_its_reach_is_named() {
+    let deck = |analysis: &str, position: f64| {
+        format!(
+            r#"
+[analysis]
+{analysis}
+end_time = 1.0
+time_step = 0.01
+[environment]
+gravity = [0.0, 0.0, -9.81]
+[[bodies]]
+name = "crank"
+center = [0.5, 0.0, 0.0]
+mass = 10.0
+inertia = [1.0, 1.0, 1.0]
+[[joints]]
+name = "pivot"
+kind = "revolute"
+axis = [0.0, 1.0, 0.0]
+from = {{ ground = [0.0, 0.0, 0.0] }}
+to = {{ body = "crank" }}
+[[actuators]]
+name = "cylinder"
+from = {{ ground = [0.0, 0.0, 1.0] }}
+to = {{ body = "crank", point = [1.0, 0.0, 0.0] }}
+motion = {{ position = {position:?}, amplitude = "stroke" }}
+[amplitudes.stroke]
+kind = "table"
+interpolation = "monotone"
+points = [[0.0, 0.0], [1.0, 1.0]]
+"#
+        )
+    };
+    for analysis in ["kind = \"dynamic\"", "kind = \"static\""] {
+        for position in [0.7, 700.0] {
+            let why = failure(&deck(analysis, position));
+            assert!(
+                why.starts_with("`cylinder` prescribes a `position` beyond the reach of the linkage: near 0.585"),
+                "{why}"
+            );
+        }
+        let outcome = said(&deck(analysis, 0.5)).2.outcome;
+        assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
+    }
+}

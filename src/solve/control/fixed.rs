@@ -131,13 +131,13 @@ impl<'a> FixedController<'a> {
 
     /// # Errors
     /// [`Failure::TooManySubsteps`] where steps need too many substeps.
-    fn check_substeps(&self, march: &March, dt: f64) -> Result<(), Outcome> {
+    fn check_substeps(&self, march: &mut March, dt: f64) -> Result<(), Outcome> {
         let (step, SubdividedSteps { steps, substeps }) = (&self.step, self.subdivided);
         let most = MOST_SUBSTEPS[usize::from(march.cx.system.has_contacts())];
         match &step.cause {
             Some(cause) if substeps + step.taken >= most && step.at < WHOLE_STEP => {
                 let (steps, substeps, cause) = (steps + 1, substeps + step.taken, Box::new(cause.clone()));
-                Err(march.failed(Failure::TooManySubsteps { steps, substeps, dt, cause }))
+                Err(march.given_up(Failure::TooManySubsteps { steps, substeps, dt, cause }))
             }
             _ => Ok(()),
         }
@@ -261,11 +261,11 @@ impl Substeps {
         }
         let careful = march.ws.load_steps.careful && self.length <= WHOLE_STEP >> CAREFUL_HALVINGS;
         if let Some(failure) = self.of_shortest.take_if(|_| careful || is_shortest) {
-            return Err(march.failed(failure));
+            return Err(march.given_up(failure));
         }
         if is_shortest || unrestrained || stops {
             let first = self.violated_at_full_length.take().filter(|_| violated);
-            return Err(march.failed(first.unwrap_or(failure)));
+            return Err(march.given_up(first.unwrap_or(failure)));
         }
         self.cause = Some(failure);
         self.length /= 2;

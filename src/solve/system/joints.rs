@@ -43,7 +43,7 @@ impl System {
     }
 
     /// Each joint with the number of its first constraint equation.
-    pub(super) fn numbered(&self) -> impl Iterator<Item = (&Joint, usize)> {
+    pub fn numbered(&self) -> impl Iterator<Item = (&Joint, usize)> {
         self.joints.iter().scan(0, |next, joint| {
             let first = *next;
             *next += joint.equations.len();
