@@ -42,6 +42,7 @@ use super::places::nodes::{Nodes, Topology};
 use super::plausibility::all_held::check_all_held;
 use super::plausibility::amplitude_ends::check_amplitude_ends;
 use super::plausibility::angles::check_angles;
+use super::plausibility::cyclic_hardening::check_cyclic_hardening;
 use super::plausibility::loose::check_loose;
 use super::plausibility::node_places::place_nodes;
 use super::plausibility::proportions::check_proportions;
@@ -51,6 +52,7 @@ use super::plausibility::sudden_weight::check_sudden_weight;
 use super::plausibility::ties::Ties;
 use super::plausibility::units::check_units;
 use super::plausibility::unjoined::check_unjoined;
+use super::plausibility::unseen_record::check_unseen_records;
 use super::plausibility::unused::drop_unused;
 use super::plausibility::upward::check_upward;
 use super::plausibility::{check_content, check_static, check_use};
@@ -520,6 +522,8 @@ fn check(
     check_units(deck, report);
     check_angles(deck, report);
     check_sudden_weight(deck, report);
+    check_cyclic_hardening(deck, amplitudes, report);
+    check_unseen_records(scene, &**scheme, amplitudes, report);
     check_upward(deck, report);
     mesh
 }

@@ -767,3 +767,43 @@ fn rows_too_far_apart_for_the_motion_are_told() {
                     [environment]\ngravity = [0.0, 0.0, -9.81]\n[output]\ninterval = 0.05\n";
     assert!(!said_of(bouncing, &[]).contains("too far apart"), "{}", said_of(bouncing, &[]));
 }
+
+/// Steel that hardens is noted where the ground shakes or a load has both signs, unless the deck chooses the hardening.
+#[test]
+fn isotropic_hardening_in_cycles_is_noted() {
+    let deck = |hardening: &str, load: &str| {
+        format!(
+            "[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = 0.5\n[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n\
+             [materials.steel]\nmodel = \"elastic-plastic\"\nyoungs_modulus = 210e9\npoisson_ratio = 0.3\nyield_stress = 235e6\n{hardening}\n\
+             [[bars]]\nname = \"bar\"\nnodes = [\"a\", \"b\"]\narea = 1e-4\nmaterial = \"steel\"\n[[supports]]\nat = \"a\"\nfix = \"translations\"\n\
+             [[supports]]\nat = \"b\"\nfix = [\"uy\", \"uz\"]\n[[loads]]\nat = \"b\"\nforce = [1000.0, 0.0, 0.0]\namplitude = \"way\"\n\
+             [amplitudes.way]\nkind = \"table\"\npoints = {load}\n"
+        )
+    };
+    let (cycle, push) = ("[[0.0, 0.0], [0.5, 1.0], [1.0, -1.0]]", "[[0.0, 0.0], [1.0, 1.0]]");
+    let table = "hardening = [[0.0, 235e6], [0.1, 300e6]]";
+    for (hardening, load, noted) in [
+        ("hardening_modulus = 2e9", cycle, true),
+        (table, cycle, true),
+        ("hardening_modulus = 2e9", push, false),
+        ("hardening_modulus = 0.0", cycle, false),
+        ("", cycle, false),
+        ("hardening_modulus = 2e9\nkinematic_share = 1.0", cycle, false),
+        ("hardening_modulus = 2e9\nkinematic_share = 0.0", cycle, false),
+    ] {
+        let deck = deck(hardening, load);
+        let deck = if hardening == table { deck.replace("yield_stress = 235e6\n", "") } else { deck };
+        let said = said_of(&deck, &[]);
+        assert_eq!(said.contains("the hardening of `steel` is isotropic"), noted, "{hardening}, {load}: {said}");
+    }
+}
+
+/// A mechanism that rests moves by rounding between its rows: no motion, and no warning.
+#[test]
+fn rounding_between_rows_is_no_motion() {
+    let deck = "[analysis]\nkind = \"dynamic\"\nend_time = 2.0\ntime_step = 0.005\n[environment]\ngravity = [0.0, 0.0, -9.81]\n[output]\nevery = 7\n\
+                [[bodies]]\nname = \"bob\"\ncenter = [0.3, 0.1, -0.6]\nmass = 800.0\ninertia = [80.0, 80.0, 80.0]\n\
+                [[links]]\nname = \"rope\"\nfrom = { ground = [0.3, 0.1, 1.0] }\nto = { body = \"bob\" }\nstiffness = 1e9\nfree_length = 1.599992152\n";
+    let said = said_of(deck, &[]);
+    assert!(!said.contains("too far apart"), "{said}");
+}
