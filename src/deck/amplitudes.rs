@@ -33,7 +33,7 @@ pub struct Amplitude {
     /// between the corners of the table. (table)
     pub interpolation: Maybe<Interpolation>,
     /// Factor on the values, such as 9.81 for a record in g. Default: 1; with `units` and a header that names a unit, the factor from that unit to
-    /// the deck's, unless a scale stands where the amplitude is used. (table)
+    /// the deck's. (table)
     pub scale: Maybe<f64>,
     /// Unit of the values of a file, such as "g", "m/s2", "cm/s2", "m/s" or "cm". rdsolve converts them to `units`. Every `scale` is then a
     /// factor on the whole record. Default: that of the header. (table)
@@ -43,7 +43,8 @@ pub struct Amplitude {
     pub shift: Maybe<f64>,
     /// Value before the first time. Default: the first value, with a warning if it is not zero and the run starts earlier. (table)
     pub before: Maybe<Beyond>,
-    /// Value after the last time. Default: the last value, with a warning if it is not zero and the run continues. (table)
+    /// Value after the last time. Default: the last value, with a warning if it is not zero and the run continues; zero for a file of
+    /// `base_acceleration`. (table)
     pub after: Maybe<Beyond>,
     /// Name of the stage from whose start the times count. Default: they are times of the run.
     pub stage: Maybe<String>,

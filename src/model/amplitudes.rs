@@ -1,6 +1,6 @@
 //! `[amplitudes.x]`: functions of time.
 
-use super::plausibility::record_units::{check_record_units, conversion, waits_for_motion};
+use super::plausibility::record_units::{check_record_units, conversion, shakes_alone, waits_for_motion};
 use super::records::Record;
 use super::report::{Owner, Report};
 use super::stages::CurrentStage;
@@ -33,7 +33,8 @@ pub(super) fn amplitudes<'d>(
         }
         let waits = waits.map(|(time, _)| time);
         let record = file.map(|record| (record, conversion(deck, index, record).unwrap_or(1.0)));
-        let read = read_amplitude(&name.value, amplitude, (record, waits.is_some()), report);
+        let ends = [waits.is_some(), shakes_alone(deck, index)];
+        let read = read_amplitude(&name.value, amplitude, (record, ends), report);
         // In place of one with errors: it begins at zero, as a motion has to.
         let read = read.unwrap_or(Amplitude::Ramp { start: 0.0, end: 1.0 });
         match waits.or_else(|| stage.map(|stage| stage.clock(&amplitude.stage))) {
@@ -50,7 +51,7 @@ pub(super) fn amplitudes<'d>(
 fn read_amplitude<'d>(
     name: &str,
     amplitude: &'d At<Table<words::Amplitude>>,
-    record: (Option<(&Record, f64)>, bool),
+    record: (Option<(&Record, f64)>, [bool; 2]),
     report: &mut Report<'d>,
 ) -> Option<Amplitude> {
     let a = amplitude;
@@ -121,11 +122,12 @@ fn phase<'d>(owner: &Owner<'d>, a: &'d words::Amplitude, report: &mut Report<'d>
     }
 }
 
-/// A table through the points of the deck or of a file. Values of a file have a factor. A record that `waits` for the motion is zero before.
+/// A table through the points of the deck or of a file. Values of a file have a factor. A record that `waits` for the motion is zero before. A
+/// record that `shakes` the ground alone falls to zero behind its end.
 fn of_points_or_file<'d>(
     owner: &Owner<'d>,
     a: &'d At<Table<words::Amplitude>>,
-    (record, waits): (Option<(&Record, f64)>, bool),
+    (record, ends): (Option<(&Record, f64)>, [bool; 2]),
     report: &mut Report<'d>,
 ) -> Option<Amplitude> {
     let of_file = keys!(a; columns, time_step, rows, unit);
@@ -133,18 +135,18 @@ fn of_points_or_file<'d>(
         report.reject_unused("a table from a file", &keys!(a; points));
         let (record, factor) = record?;
         let points = record.points.iter().map(|[time, value]| [*time, value * factor]);
-        return table(a, (points.collect(), waits), report);
+        return table(a, (points.collect(), ends), report);
     }
     report.reject_unused("a table without a file", &of_file);
     let points = report.require(owner, "points", &a.points)?;
     let points = report.rising("points", "time", points)?;
-    table(a, (points, false), report)
+    table(a, (points, [false; 2]), report)
 }
 
 /// A table with the scale and shift of the deck, and with jumps to zero at its ends if the deck asks for them.
 fn table<'d>(
     a: &'d At<Table<words::Amplitude>>,
-    (mut points, waits): (Vec<[f64; 2]>, bool),
+    (mut points, [waits, shakes]): (Vec<[f64; 2]>, [bool; 2]),
     report: &mut Report<'d>,
 ) -> Option<Amplitude> {
     let is_zero = |beyond: &Maybe<words::Beyond>| beyond.as_ref().is_some_and(|at| at.value == words::Beyond::Zero);
@@ -156,6 +158,13 @@ fn table<'d>(
     }
     if is_zero(&a.after) {
         points.push([points[points.len() - 1][0], 0.0]);
+    } else if shakes
+        && a.after.is_none()
+        && let [.., [before, _], [last, value]] = points[..]
+        && value != 0.0
+    {
+        // The instrument of a record went on after it: the next value is zero.
+        points.push([2.0 * last - before, 0.0]);
     }
     let is_steep = |pair: &[[f64; 2]]| {
         let slope = (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);

@@ -349,7 +349,7 @@ fn units_of_records_are_compared_with_the_deck() {
     }
 }
 
-/// With `units` a record in g is converted as by its scale, to the last bit; a scale where it acts, or `scale = 1.0`, leaves it alone.
+/// With `units` a record in g is converted as by its scale, to the last bit; `scale = 1.0` in the amplitude leaves it alone.
 #[test]
 fn records_are_converted_to_the_units_of_the_deck() {
     let folder = tempfile::tempdir().unwrap();
@@ -367,7 +367,11 @@ fn records_are_converted_to_the_units_of_the_deck() {
     assert_eq!(motion(si, SHAKEN, ""), motion(si, SHAKEN, "scale = 9.80665"));
     assert_eq!(motion(mm, SHAKEN, ""), motion(mm, SHAKEN, "scale = 9806.65"));
     assert_eq!(motion(si, SHAKEN, "scale = 1.0"), motion("", SHAKEN, "scale = 1.0"));
-    assert_eq!(motion(si, &scaled, ""), motion("", &scaled, ""));
+    // A scale of the motion is a factor on the whole record, unless it is the factor between the units.
+    assert_eq!(motion(si, &scaled, ""), motion(si, &scaled, "unit = \"g\""));
+    assert_eq!(motion(si, SHAKEN, ""), motion(si, &scaled.replace("2.0", "1.0"), ""));
+    assert_eq!(motion(si, SHAKEN, ""), motion("", &scaled.replace("2.0", "9.80665"), ""));
+    assert_eq!(motion(si, SHAKEN, ""), motion(si, &scaled.replace("2.0", "9.80665"), ""));
 }
 
 /// The hash of a run is that of its records too: other numbers, another hash.
@@ -503,12 +507,47 @@ fn times_of_a_header_are_converted_to_the_units_of_the_deck() {
 
 /// A record that ends at less than a thousandth of its peak has faded: no warning that its last value is held.
 #[test]
-fn a_record_that_has_faded_ends_quietly() {
+fn a_record_of_the_ground_ends_at_zero() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let deck = format!("{OSCILLATOR}{SHAKEN}[amplitudes.quake]\nkind = \"table\"\nfile = \"record.csv\"\n");
-    for (end, warns) in [("0.0009", false), ("0.0011", true)] {
-        let (code, found) = run(folder, &deck, &format!("0,0\n0.5,1\n1.0,{end}\n"), "out");
-        assert!(code == 0 && found.contains("holds its last value") == warns, "{end}: {found}");
-    }
+    let deck =
+        |keys: &str| format!("{OSCILLATOR}{SHAKEN}[amplitudes.quake]\nkind = \"table\"\nfile = \"record.csv\"\n{keys}");
+    let motion = |keys: &str, end: &str| {
+        let (code, found) = run(folder, &deck(keys), &format!("0,0\n0.5,1\n1.0,0.5\n{end}"), "out");
+        assert!(code == 0 && !found.contains("holds its last value"), "{found}");
+        rows(folder, "out", "x")
+    };
+    // As if the next value were zero; a deck may still ask for another end.
+    assert_eq!(motion("", ""), motion("", "1.5,0\n"));
+    assert_eq!(motion("after = \"hold\"\n", ""), motion("", "100,0.5\n"));
+    assert_ne!(motion("", ""), motion("after = \"hold\"\n", ""));
+}
+
+/// Steps longer than the distance of the points of a record are warned of where they miss a part of it, and the remedy ends that. A smooth record
+/// loses nothing, and neither do steps as long as its own.
+#[test]
+fn steps_that_miss_a_part_of_the_record_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let said = |frequency: f64, step: f64| {
+        let record: String = (0..=200)
+            .map(|k| 0.01 * f64::from(k))
+            .map(|t| format!("{t},{}\n", (frequency * std::f64::consts::TAU * t).sin()))
+            .collect();
+        let deck = OSCILLATOR.replace("time_step = 0.005", &format!("time_step = {step:?}"));
+        assert!(deck.contains(&format!("time_step = {step:?}")), "{deck}");
+        let (code, said) = run(
+            folder,
+            &format!("{deck}{SHAKEN}[amplitudes.quake]\nkind = \"table\"\nfile = \"record.csv\"\n"),
+            &record,
+            "out",
+        );
+        assert_eq!(code, 0, "{said}");
+        said.lines().find(|line| line.contains("a step of")).map(str::to_owned)
+    };
+    // Five samples a period: 1 + (2 + cos 72°)/3 − 4 (1 − cos 72°)/1.2566² is 0.019.
+    let told = said(4.0, 0.05).unwrap();
+    assert!(told.contains("a step of 0.05 samples the record") && told.contains("about 0.01 apart: 1.9 %"), "{told}");
+    assert_eq!(said(4.0, 0.01), None);
+    assert_eq!(said(0.5, 0.05), None);
 }

@@ -1,6 +1,6 @@
 //! Records in other units than the deck. Headers of data bases give the unit; values are converted where the deck has `units` and no scale.
 
-use super::shaking::{BareRecords, Use, is_converted_twice};
+use super::shaking::{BareRecords, Use, is_converted_twice, is_factor, is_too_strong};
 use crate::record::{MotionQuantity, RecordUnit};
 use crate::records::Record;
 use crate::report::Report;
@@ -56,6 +56,9 @@ pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut 
             continue;
         }
         if let Some(factor) = converted {
+            if is_too_strong(deck, &used, (words, record, factor), report) {
+                continue;
+            }
             if words.unit.is_none() {
                 note_conversion(deck, &used, (file, unit), factor, report);
             }
@@ -72,10 +75,16 @@ pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut 
     bare.check(deck, report);
 }
 
-/// True for a record of the ground that begins with the first dynamic stage. Its times count from 0, and it moves nothing but the ground. The
-/// deck gives no time for its begin.
+/// True for a record of the ground that begins with the first dynamic stage. Its times count from 0, and the deck gives no time for its begin.
 pub fn waits_for_motion(deck: &Deck, index: usize, record: &Record) -> bool {
-    let (name, words) = &deck.amplitudes.0[index];
+    let words = &deck.amplitudes.0[index].1;
+    let begins_at_zero = record.points.first().is_some_and(|[time, _]| *time == 0.0);
+    words.shift.is_none() && words.stage.is_none() && begins_at_zero && shakes_alone(deck, index)
+}
+
+/// True for an amplitude that moves the ground and nothing else.
+pub fn shakes_alone(deck: &Deck, index: usize) -> bool {
+    let name = &deck.amplitudes.0[index].0;
     let is_this = |own: &Maybe<String>| own.as_ref().is_some_and(|own| own.value == name.value);
     let mut ground = deck.environment.iter().flat_map(|environment| &environment.base_acceleration);
     let shakes = ground.any(|base| is_this(&base.amplitude));
@@ -89,35 +98,36 @@ pub fn waits_for_motion(deck: &Deck, index: usize, record: &Record) -> bool {
             || joint.effort.as_ref().is_some_and(|effort| is_this(&effort.amplitude))
     });
     let loads = deck.loads.iter().any(|load| is_this(&load.amplitude));
-    let begins_at_zero = record.points.first().is_some_and(|[time, _]| *time == 0.0);
-    let is_open = words.shift.is_none() && words.stage.is_none();
-    shakes && is_open && begins_at_zero && !(weighs || moves || drives || loads)
+    shakes && !(weighs || moves || drives || loads)
 }
 
-/// The factor from the unit of a record to the units of the deck. `None` if the deck has no `units`, or if it has a `scale` at the amplitude or
-/// at the motion and no `unit`.
+/// The factor from the unit of a record to the units of the deck. `None` if the deck has no `units`. Without `unit`, a `scale` of the amplitude
+/// replaces it, and so does a scale of the motion that equals it. Another scale of the motion multiplies the whole record.
 pub fn conversion(deck: &Deck, index: usize, record: &Record) -> Option<f64> {
     let (name, words) = &deck.amplitudes.0[index];
     let (quantity, si) = record.unit.as_ref()?.known?;
     let [length, _, time] = deck.units.as_ref()?.value.scales();
     let is_this = |used: &Use| used.amplitude.as_ref().is_some_and(|own| own.value == name.value);
     let used: Vec<Use> = uses(deck).into_iter().filter(is_this).collect();
-    let leaves = words.scale.is_none() && used.iter().all(|used| used.scale.is_none());
+    let factor = si * time.powi(quantity.power_of_time()) / length;
+    let leaves =
+        words.scale.is_none() && !used.iter().any(|used| used.scale.is_some_and(|scale| is_factor(scale, factor)));
     let is_right = used.iter().all(|used| used.quantity == quantity);
-    ((leaves || words.unit.is_some()) && is_right && !used.is_empty())
-        .then(|| si * time.powi(quantity.power_of_time()) / length)
+    ((leaves || words.unit.is_some()) && is_right && !used.is_empty()).then_some(factor)
 }
 
 /// Notes that a record is converted, unless it is in the units of the deck already.
 fn note_conversion(deck: &Deck, used: &Use, (file, unit): (&str, &RecordUnit), factor: f64, report: &mut Report) {
     let (Some(units), true) = (&deck.units, factor != 1.0) else { return };
-    let message =
-        format!("the record `{file}` is in {}, and its values are converted to the units {}", unit.name, units.label());
-    report.note(
-        used.place,
-        message,
-        format!("that is `scale = {}`; `scale = 1.0` takes the numbers as they are", short(factor)),
+    let besides = used.scale.map_or(String::new(), |scale| format!("; the scale {} is a factor on it", short(scale)));
+    let message = format!(
+        "the record `{file}` is in {}, and its values are converted to the units {}{besides}",
+        unit.name,
+        units.label()
     );
+    let hint =
+        format!("that is `scale = {}`; `scale = 1.0` in the amplitude leaves the numbers unconverted", short(factor));
+    report.note(used.place, message, hint);
 }
 
 /// Where a record of this quantity belongs.

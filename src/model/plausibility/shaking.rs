@@ -56,7 +56,7 @@ impl<'d> BareRecords<'d> {
         else {
             return;
         };
-        let largest = record.points.iter().fold(0.0, |largest: f64, [_, value]| largest.max(value.abs()));
+        let largest = largest(record);
         let file = words.file.as_ref().map_or("", |file| file.value.as_str());
         self.0.push((used, file, [largest, largest * unit / G]));
     }
@@ -92,6 +92,42 @@ impl<'d> BareRecords<'d> {
     }
 }
 
+/// Warns of a converted record whose scale makes it stronger than any that was measured: the scale may have been meant to convert it. True if it does.
+pub fn is_too_strong(
+    deck: &Deck,
+    used: &Use,
+    (words, record, factor): (&Amplitude, &Record, f64),
+    report: &mut Report,
+) -> bool {
+    let scales = [words.scale.as_ref().map(|scale| scale.value), used.scale];
+    let scale = scales.iter().flatten().product::<f64>();
+    let Some(unit) = acceleration(deck).filter(|_| used.quantity == MotionQuantity::Acceleration) else { return false };
+    let peak = largest(record) * (factor * scale * unit / G).abs();
+    if peak <= PEAKS[2] || scales.iter().all(Option::is_none) {
+        return false;
+    }
+    let file = words.file.as_ref().map_or("", |file| file.value.as_str());
+    let message = format!(
+        "the record `{file}` is converted to the units of the deck, and with the scale {} it moves {} with {} g",
+        short(scale),
+        used.what,
+        to_digits(peak, 3)
+    );
+    let hint = format!("the scale is a factor on the whole record: give `scale` = {}", to_digits(scale / factor, 4));
+    report.warn(used.place, message, hint);
+    true
+}
+
+/// The largest magnitude of a record.
+fn largest(record: &Record) -> f64 {
+    record.points.iter().fold(0.0, |largest: f64, [_, value]| largest.max(value.abs()))
+}
+
+/// True for a scale that is this factor between units, rounded.
+pub fn is_factor(scale: f64, factor: f64) -> bool {
+    (scale.abs() / factor - 1.0).abs() < ROUNDED
+}
+
 /// Warns of a record that two of the header or `unit`, the scale of the amplitude and the scale of its use convert. True if it does.
 pub fn is_converted_twice(
     deck: &Deck,
@@ -102,7 +138,7 @@ pub fn is_converted_twice(
     let Some((units, (quantity, si))) = deck.units.as_ref().zip(unit.known) else { return false };
     let [length, _, time] = units.value.scales();
     let right = si * time.powi(quantity.power_of_time()) / length;
-    let is_conversion = |scale: &f64| (scale.abs() / right - 1.0).abs() < ROUNDED;
+    let is_conversion = |scale: &f64| is_factor(*scale, right);
     let scales = [words.scale.as_ref().map(|scale| scale.value), used.scale];
     let conversions: Vec<f64> = scales.into_iter().flatten().filter(is_conversion).collect();
     let count = conversions.len() + usize::from(is_converted);
