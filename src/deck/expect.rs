@@ -18,8 +18,9 @@ pub struct Expect {
     /// Instead of `at`: number of a critical speed, the lowest 1; the quantity is then a column of critical_speeds.csv.
     pub critical_speed: Maybe<u64>,
     /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv, joints.csv, drifts.csv or energy.csv. For a joint, "fx" to "mz" act on its
-    /// first part (`from`). For a supported point, body or set they are the reaction of its supports on the structure. For a contact, "force" is the
-    /// magnitude. Section forces of a beam ("N" to "Mz"), a bar ("N") or a shell ("N11" to "Q2") are those of largest magnitude in the part, with
+    /// first part (`from`). For a supported point, body or set they are the reaction of its supports on the structure. For a contact "force", and
+    /// for a joint "force" and "moment", are magnitudes. Section forces of a beam ("N" to "Mz"), a bar ("N") or a shell ("N11" to "Q2") are those of
+    /// largest magnitude in the part, with
     /// sign; so are "von_mises_bottom" and "von_mises_top". "sigma_max", "tau_max", "von_mises" and "plastic_strain" are the largest in the part.
     /// "sigma_min" is the smallest.
     #[schemars(required)]

@@ -1,8 +1,8 @@
 //! `[[expect]]`: values that a run must reach.
 
 use super::data::{
-    Beam, DIRECTIONS, Expect, ExpectAt, LoadCases, ModeExtent, OverFrequencies, Part, PartType, Tolerance, When,
-    quantities_of,
+    Beam, DIRECTIONS, Expect, ExpectAt, JOINT_MAGNITUDES, LoadCases, ModeExtent, OverFrequencies, Part, PartType,
+    Tolerance, When, quantities_of,
 };
 use super::places::nodes::Topology;
 use super::places::place::Place;
@@ -321,7 +321,7 @@ impl<'d> Expects<'_, 'd> {
                 Some((ExpectAt::Node(node), columns))
             }
             Some(Place::Joint(joint)) => {
-                let mut columns = quantities::JOINT_REACTION.to_vec();
+                let mut columns = [&quantities::JOINT_REACTION[..], &JOINT_MAGNITUDES].concat();
                 let kind = self.scene.deck.joints.get(joint).and_then(|joint| joint.kind.as_ref());
                 if kind.is_some_and(|kind| !kind.make.coordinates.is_empty()) {
                     columns.extend(quantities::JOINT_COORDINATE);

@@ -2,9 +2,16 @@
 
 use base::math::Vec3;
 use base::math::turn::RotationAngles;
+use base::quantities::{Column, Unit};
 use deck::supports::History;
 use mechanics::constraints::joint::{ConstraintEquation, Drive, SecondNode};
 use std::collections::{HashMap, HashSet};
+
+/// The magnitudes of the force and of the moment of a joint on its first part.
+pub const JOINT_MAGNITUDES: [Column; 2] = [
+    Column::scalar("force", "magnitude of the force", Unit::Force).kind("force"),
+    Column::scalar("moment", "magnitude of the moment", Unit::Moment).kind("moment"),
+];
 
 /// The constraints of a scene: rigid links, joints and restraints.
 #[derive(Debug, Clone, Default)]

@@ -33,8 +33,8 @@ pub use bar::Bar;
 pub use beam::{Beam, BeamElement, SectionAt, VariedElement};
 pub use case::{CaseActor, CaseTerm, Envelope, LoadCase, LoadCases, YieldLimit};
 pub use constraints::{
-    Constraints, DependentNode, GivenTurn, Joint, JointCoordinate, JointDrive, JointEffort, JointOrigin,
-    PrescribedMotion, Restraint,
+    Constraints, DependentNode, GivenTurn, JOINT_MAGNITUDES, Joint, JointCoordinate, JointDrive, JointEffort,
+    JointOrigin, PrescribedMotion, Restraint,
 };
 pub use contact::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
 pub use deck::analysis::{Gyroscopic, Method, RotaryInertia, Update};

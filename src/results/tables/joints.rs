@@ -4,7 +4,7 @@ use crate::extent::Rows;
 use crate::table::{Answers, TableKind, WriteRow};
 use base::quantities::{Column, JOINT_COORDINATE, JOINT_REACTION, names};
 use mechanics::state;
-use model::{ExpectAt, Joint, JointCoordinate, Model};
+use model::{ExpectAt, JOINT_MAGNITUDES, Joint, JointCoordinate, Model};
 use solve::{Frame, Wanted};
 use std::io;
 
@@ -13,7 +13,7 @@ pub static TABLE: TableKind = TableKind {
     about: "One row for each joint. Written with `[output] joints = true` if there are joints. Joints without a coordinate leave the first \
             three numbers empty. Forces and moments act on the first part, like those of links. They include motors, springs, stops and \
             friction, which reactions.csv excludes.",
-    columns: &[&[Column::key("joint", "name of the joint")], &JOINT_COORDINATE, &JOINT_REACTION],
+    columns: &[&[Column::key("joint", "name of the joint")], &JOINT_COORDINATE, &JOINT_REACTION, &JOINT_MAGNITUDES],
     wanted: |model| model.output.joints && of_deck(model).next().is_some(),
     needs: NEEDS,
     has_last: |_| true,
@@ -21,7 +21,7 @@ pub static TABLE: TableKind = TableKind {
     extent: |extent| {
         let [force, moment] = extent.components();
         let all = of_deck(extent.model).map(|joint| joint.name.as_str());
-        Rows::named(all, (3 + force + moment) * of_deck(extent.model).count())
+        Rows::named(all, (5 + force + moment) * of_deck(extent.model).count())
     },
     rows: |_| Box::new(write),
     answers: Some(Answers { quantities, needs: NEEDS, value }),
@@ -37,7 +37,7 @@ fn of_deck(model: &Model) -> impl Iterator<Item = &Joint> {
 
 fn quantities(at: ExpectAt) -> Vec<&'static str> {
     match at {
-        ExpectAt::Joint(_) => names(&[&JOINT_COORDINATE, &JOINT_REACTION]),
+        ExpectAt::Joint(_) => names(&[&JOINT_COORDINATE, &JOINT_REACTION, &JOINT_MAGNITUDES]),
         _ => Vec::new(),
     }
 }
@@ -48,7 +48,7 @@ fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
 }
 
 /// The columns of one joint; `None` where the frame does not have it. Quantities that a joint lacks are not numbers.
-fn values(joint: usize, frame: &Frame) -> Option<[f64; 9]> {
+fn values(joint: usize, frame: &Frame) -> Option<[f64; 11]> {
     let (made, held) = (frame.model.constraints.joints.get(joint)?, frame.derived.joints.get(joint)?);
     let (mut f, mut m) = (held.f, held.m);
     let [mut q, mut rate, mut effort] = [f64::NAN; 3];
@@ -72,7 +72,7 @@ fn values(joint: usize, frame: &Frame) -> Option<[f64; 9]> {
         f += acting * G.fixed_rows::<3>(0);
         m += acting * G.fixed_rows::<3>(3);
     }
-    Some([q, rate, effort, f.x, f.y, f.z, m.x, m.y, m.z])
+    Some([q, rate, effort, f.x, f.y, f.z, m.x, m.y, m.z, f.norm(), m.norm()])
 }
 
 /// The effort that the deck gives.
@@ -92,7 +92,7 @@ fn motor(coordinate: &JointCoordinate, frame: &Frame) -> f64 {
 fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     frame.model.constraints.joints.iter().enumerate().filter(|(_, joint)| joint.is_listed()).try_for_each(
         |(index, joint)| {
-            let values = values(index, frame).unwrap_or([f64::NAN; 9]);
+            let values = values(index, frame).unwrap_or([f64::NAN; 11]);
             let mut row = table.row(frame.step, frame.state.time).text(&joint.name);
             // A joint without a coordinate has none to write, which is no fault of a number.
             for value in &values[..3] {
