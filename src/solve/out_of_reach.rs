@@ -1,7 +1,7 @@
 //! Drives beyond the reach of their linkage, as the cause of a step that fails however short it is.
 //!
 //! Links that come to lie in one line can follow their drive no farther. The force of the drive then grows without bound over the forces that it
-//! moves, by one over the sine of the angle to that line.
+//! moves, by one over the sine of the angle to that line. In load steps without a force across that line the drive has none to grow.
 
 use super::context::Context;
 use super::failure::Failure;
