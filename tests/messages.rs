@@ -1961,3 +1961,34 @@ fn lists_of_directions_take_groups() {
     let found = portal(&[("fix = \"all\"", "fix = [\"translation\"]")]);
     assert!(found.contains("did you mean `translations`?"), "{found}");
 }
+
+/// An unbalance needs a spin, and a response that follows it; the plan tells which.
+#[test]
+fn unbalances() {
+    let scene = |keys: &str, spin: &str, load: &str| {
+        let kind = ("kind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4", keys);
+        let load = format!("[[loads]]\n{load}\n[[loads]]");
+        portal(&[kind, ("velocity = [4.0, 0.0, 0.0]", spin), ("[[loads]]", &load)])
+    };
+    let (response, spin) = ("kind = \"frequency-response\"\nfrequencies = [1.0]", "angular_velocity = [5.0, 0.0, 0.0]");
+    let load = "at = \"block\"\nunbalance = [0.0, 0.1, 0.0]";
+    let says = scene(response, spin, load);
+    assert!(!says.contains("error"), "{says}");
+    assert_snapshot!("unbalance_in_time", scene("kind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4", spin, load));
+    assert_snapshot!(
+        "unbalance_without_spin",
+        scene(response, "", "at = [\"block\", \"knee_left\"]\nunbalance = [0.0, 0.1, 0.0]")
+    );
+    assert_snapshot!(
+        "unbalance_along_the_axis",
+        scene(response, spin, "at = \"block\"\nunbalance = [0.1, 0.1, 0.0]\nforce = [1.0, 0.0, 0.0]")
+    );
+    let by_modes = "kind = \"frequency-response\"\nfrequencies = { from = 1.0, to = 2.0, steps = 3, around_resonances = 2 }\nmethod = \"modal\"";
+    assert_snapshot!("unbalance_by_modes", scene(by_modes, spin, load));
+    let turning = format!("{load}\n[[loads]]\ncentrifugal = {{ speed = 5.0, axis = [1.0, 0.0, 0.0] }}");
+    assert_snapshot!("unbalance_and_centrifugal", scene(response, spin, &turning));
+    let twice = format!(
+        "{load}\n[[loads]]\nat = \"foot\"\nunbalance = [0.0, 0.1, 0.0]\n[[bodies]]\nname = \"foot\"\ncenter = [0.0, 5.0, 0.0]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\nangular_velocity = [9.0, 0.0, 0.0]"
+    );
+    assert_snapshot!("unbalance_at_two_speeds", scene(response, spin, &twice));
+}

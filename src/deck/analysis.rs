@@ -161,8 +161,8 @@ pub enum AnalysisKind {
     Modal,
     /// Load factors of the loads at t = 0 at which the structure buckles, by linear buckling analysis.
     Buckling,
-    /// Amplitude and phase of the steady motion under loads and supports with amplitudes of kind "harmonic", about the equilibrium under
-    /// all other loads at t = 0.
+    /// Amplitude and phase of the steady motion under an `unbalance`, or under loads and supports with amplitudes of kind "harmonic". All other loads
+    /// hold the equilibrium at t = 0.
     FrequencyResponse,
 }
 

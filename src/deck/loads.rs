@@ -52,6 +52,9 @@ pub struct Load {
     /// Centrifugal force of a rotation, in statics and modes. It acts on all masses, or on those that `part` names: beams, bars, shells,
     /// bodies, points with `[[masses]]`, groups of the mesh or sets of them.
     pub centrifugal: Maybe<Table<SteadyRotation>>,
+    /// Unbalance of a rotor, in "frequency-response": mass times the vector from the spin axis to the mass at t = 0, global components. Its force
+    /// turns with the node and grows with the square of the spin. All spins then follow the frequency, in the proportions of t = 0.
+    pub unbalance: Maybe<Vector>,
     /// A force or moment turns with its node, a load per length with the sections of its beam, a pressure follows the surface. Default:
     /// false.
     pub follower: Maybe<bool>,

@@ -27,6 +27,7 @@ use super::joints::coordinate::Joints;
 use super::joints::{check_joints, joints, released};
 use super::links::{ModelLinks, links};
 use super::loads::temperature::temperatures;
+use super::loads::unbalance::unbalances;
 use super::loads::{Loads, loads};
 use super::masses::masses;
 use super::materials::materials;
@@ -381,9 +382,10 @@ fn act<'d>(scene: &mut Scene<'d>, joined: &mut JoinedNodes, efforts: Vec<Load>, 
     set_bulges(&mut scene.parts.list, topology, scene.stage.map_or(&[], |stage| &stage.sequence.bulges));
     let contacts = contacts(scene, masses, joints, gravity(scene.deck), topology, report);
     let efforts = [&efforts[..], &links.pulls[..]].concat();
-    let loads = loads(scene, (efforts, &masses[..]), amplitudes, topology, &mut actors, report);
+    let mut loads = loads(scene, (efforts, &masses[..]), amplitudes, topology, &mut actors, report);
     let damping = damping(scene, topology, report);
     initial(scene, amplitudes, topology, report);
+    loads.nodal.extend(unbalances(scene, amplitudes, topology, report));
     Acting { fields, actors, turned, contacts, loads, damping }
 }
 

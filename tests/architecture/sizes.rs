@@ -23,7 +23,7 @@ const WIDE: Known = &[
     ("deck/joints.rs: Joint", 25),
     ("deck/links.rs: Link", 31),
     ("deck/lib.rs: Deck", 39),
-    ("deck/loads.rs: Load", 20),
+    ("deck/loads.rs: Load", 21),
     ("deck/shells.rs: Shell", 19),
     ("deck/stages.rs: Stage", 20),
     ("import/build.rs: Build", 16),

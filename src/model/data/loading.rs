@@ -26,6 +26,13 @@ pub struct Loading {
     pub base_accelerations: Vec<BaseAcceleration>,
 }
 
+impl Loading {
+    /// The node of an unbalance, whose spin is the angular frequency of a response; `None` if spins are those of t = 0.
+    pub fn unbalanced_node(&self) -> Option<usize> {
+        self.nodal.iter().find(|load| load.is_unbalance()).map(|load| load.node)
+    }
+}
+
 impl Default for Loading {
     fn default() -> Self {
         Loading {
@@ -69,6 +76,8 @@ pub enum LoadOrigin {
     Spread,
     /// The coordinate of a joint: the load acts on the node as far as this moves the coordinate.
     Coordinate(LoadedCoordinate),
+    /// An unbalance: the force is its size at a spin of 1, and its amplitude gives one of two directions that turn with the spin.
+    Unbalance,
 }
 
 /// The effort of a motor as the load on one end of its joint. The directions are those of the gradient of the coordinate, so that both ends
@@ -120,6 +129,11 @@ impl Load {
             Some(LoadOrigin::Coordinate(coordinate)) => Some(coordinate),
             _ => None,
         }
+    }
+
+    /// True for a part of the rotating force of an unbalance.
+    pub fn is_unbalance(&self) -> bool {
+        matches!(self.origin, Some(LoadOrigin::Unbalance))
     }
 
     /// Multiplies it by a factor.

@@ -1,9 +1,9 @@
 //! `[[loads]]` with `centrifugal`: the force on masses in a frame that turns steadily.
 
-use crate::data::{AnalysisKind, Centrifugal, Mass, MassKind, ModesAsked, Part, RotationAxis, TurningMasses};
+use crate::data::{AnalysisKind, Centrifugal, Mass, MassKind, Part, RotationAxis, TurningMasses};
 use crate::places::nodes::Topology;
 use crate::places::place::Place;
-use crate::procedure::response::is_harmonic;
+use crate::procedure::response::{is_harmonic, is_synchronous};
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
 use crate::values::{keys, vec3_or_zero};
@@ -44,11 +44,14 @@ pub fn centrifugal_load<'d>(
 
 /// Refuses a load where inertia forces of the motion itself are computed, and beside speeds that it does not follow.
 fn check_analysis(scene: &Scene, load: &At<Table<words::Load>>, report: &mut Report) {
-    if let AnalysisKind::Modal(ModesAsked { speeds, .. }) = &scene.analysis.kind
-        && !speeds.is_empty()
-    {
-        let hint = "leave out `speeds`, and run the deck at each `speed`: `rdsolve sweep` does";
-        report.error_with::<()>(&load.span, "`speeds` scales the spin of bodies, not a centrifugal load", hint);
+    let scales = match &scene.analysis.kind {
+        AnalysisKind::Response(_) if is_synchronous(scene.deck) => Some("unbalance"),
+        _ => (!scene.analysis.speeds().is_empty()).then_some("speeds"),
+    };
+    if let Some(key) = scales {
+        let hint = format!("leave out `{key}`, and run the deck at each `speed`: `rdsolve sweep` does");
+        let message = format!("`{key}` scales the spin of bodies, not a centrifugal load");
+        report.error_with::<()>(&load.span, message, hint);
     }
     if scene.analysis.kind != AnalysisKind::Dynamic {
         return;

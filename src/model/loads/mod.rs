@@ -6,6 +6,7 @@ pub mod per_length;
 pub mod placed;
 pub mod spread;
 pub mod temperature;
+pub mod unbalance;
 
 use crate::data::{Actors, Centrifugal, Load, Mass, Pressure};
 use crate::loads::centrifugal::centrifugal_load;
@@ -43,7 +44,7 @@ pub fn loads<'d>(
     report: &mut Report<'d>,
 ) -> Loads {
     let (mut loads, elements) = (Loads::default(), ElementsByNodes::default());
-    for load in scene.deck.loads.iter().filter(|load| !is_temperature(load)) {
+    for load in scene.deck.loads.iter().filter(|load| !is_temperature(load) && load.unbalance.is_none()) {
         let first = [loads.nodal.len(), loads.pressures.len(), loads.centrifugal.len()];
         let amplitude = amplitude(scene, load, report);
         if let Some(rotation) = &load.centrifugal {
@@ -108,6 +109,7 @@ fn nodal_load<'d>(
         "temperature",
         "temperature_gradient",
         "centrifugal",
+        "unbalance",
     ];
     let unused = keys!(load; part, projected, profile);
     let unread = keys.iter().any(|key| report.is_spoiled(owner.span, key));
@@ -115,7 +117,7 @@ fn nodal_load<'d>(
         report.error_with::<()>(
             owner.span,
             "this load is empty",
-            "give it `force` or `moment`; of beams also `force_per_length`, of shells `pressure` or `force_per_area`; or `temperature` or `centrifugal`",
+            "give it `force`, `moment`, `temperature`, `centrifugal` or `unbalance`; of beams also `force_per_length`, of shells `pressure` or `force_per_area`",
         );
     } else if !unread {
         report.reject_unused("a load at nodes", &unused);

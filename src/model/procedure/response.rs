@@ -11,6 +11,7 @@ use base::diagnostic::{At, Span};
 use deck::Deck;
 use deck::amplitudes::AmplitudeKind;
 use deck::analysis::{Analysis, AnalysisKind, ResponseWord};
+use deck::loads::Load;
 use deck::stages::StageKind;
 use deck::words::{Frequencies, FrequencyRange, Spacing};
 use mechanics::amplitude::Amplitude;
@@ -116,8 +117,7 @@ fn in_range<'d>(range: &'d FrequencyRange, report: &mut Report<'d>) -> (Vec<f64>
 
 /// Checks that harmonic amplitudes are used in a frequency response, and that a frequency response has an excitation.
 pub fn check_harmonic(deck: &Deck, whole: &Deck, report: &mut Report) {
-    let responds = |kind: StageKind| kind == StageKind::FrequencyResponse;
-    let stages_respond = whole.stages.iter().any(|stage| stage.kind.as_ref().is_some_and(|kind| responds(kind.value)));
+    let stages_respond = has_response(whole);
     let used = amplitudes_over_time(deck);
     let mut harmonic = deck.amplitudes.0.iter().filter(|(name, amplitude)| {
         used.contains(name.as_str())
@@ -125,9 +125,9 @@ pub fn check_harmonic(deck: &Deck, whole: &Deck, report: &mut Report) {
     });
     let Some(kind) = deck.analysis.as_ref().and_then(|analysis| analysis.kind.as_ref()) else { return };
     match kind.value {
-        AnalysisKind::FrequencyResponse if harmonic.next().is_none() => {
+        AnalysisKind::FrequencyResponse if harmonic.next().is_none() && !is_synchronous(deck) => {
             let hint = "give loads, motions of supports or `base_acceleration` an `amplitude` of kind \"harmonic\": these act at their full \
-                        value, and all other loads hold the static state";
+                        value, and all other loads hold the static state; or give a rotor an `unbalance` in `[[loads]]`";
             report.error_with::<()>(&kind.span, "nothing excites this frequency response", hint);
         }
         AnalysisKind::Dynamic | AnalysisKind::Static if !stages_respond => {
@@ -143,11 +143,11 @@ pub fn check_harmonic(deck: &Deck, whole: &Deck, report: &mut Report) {
     }
 }
 
-/// True for the name of an amplitude that is harmonic.
-pub fn names_harmonic(deck: &Deck, name: &str) -> bool {
-    let is = |kind: &AmplitudeKind| *kind == AmplitudeKind::Harmonic;
-    let mut named = deck.amplitudes.0.iter().filter(|(own, _)| own.value == name);
-    named.any(|(_, amplitude)| amplitude.kind.as_ref().is_some_and(|kind| is(&kind.value)))
+/// True for a load that acts in frequency responses alone: an unbalance, or one whose amplitude is harmonic.
+pub fn is_excitation(deck: &Deck, load: &Load) -> bool {
+    let Some(name) = &load.amplitude else { return load.unbalance.is_some() };
+    let mut named = deck.amplitudes.0.iter().filter(|(own, _)| own.value == name.value);
+    named.any(|(_, amplitude)| amplitude.kind.as_ref().is_some_and(|kind| kind.value == AmplitudeKind::Harmonic))
 }
 
 /// Adds the frequencies of expected values to the computed ones.
@@ -168,4 +168,15 @@ pub fn add_expected(analysis: &mut data::Analysis, expects: &[Expect]) {
 /// True for the amplitude of this index where it is harmonic.
 pub fn is_harmonic(amplitudes: &[Amplitude], index: Option<usize>) -> bool {
     index.is_some_and(|i| amplitudes[i].harmonic_phase().is_some())
+}
+
+/// True where a stage is a frequency response.
+pub fn has_response(deck: &Deck) -> bool {
+    let responds = |kind: &At<StageKind>| kind.value == StageKind::FrequencyResponse;
+    deck.stages.iter().any(|stage| stage.kind.as_ref().is_some_and(responds))
+}
+
+/// True for a deck with an unbalance, whose spins follow the frequency.
+pub fn is_synchronous(deck: &Deck) -> bool {
+    deck.loads.iter().any(|load| load.unbalance.is_some())
 }

@@ -2,7 +2,7 @@
 
 use super::current::CurrentStage;
 use super::sequence::{StageSequence, buckles, name_of, responds};
-use crate::procedure::response::names_harmonic;
+use crate::procedure::response::is_excitation;
 use crate::procedure::scaled_masses::{KEY, masses};
 use crate::report::Report;
 use crate::values::keys;
@@ -107,7 +107,7 @@ fn check_new<'d>(sequence: &StageSequence<'d>, index: usize, report: &mut Report
     }
     for load in new {
         match &load.amplitude {
-            Some(amplitude) if !buckles && names_harmonic(sequence.whole, amplitude.as_str()) => {}
+            _ if !buckles && is_excitation(sequence.whole, load) => {}
             _ if !buckles => {
                 let message = format!("nothing applies this load before the modes of stage `{}`", stage.name);
                 let hint = "they are those about the state that has been reached: name a static stage before it";

@@ -1,13 +1,12 @@
 //! The stage whose model is built, and the deck as it sees it.
 
 use super::sequence::{PlannedStage, StageSequence, buckles, name_of};
-use crate::procedure::response::names_harmonic;
+use crate::procedure::response::is_excitation;
 use crate::values::span;
 use base::diagnostic::{At, Span};
 use deck::Deck;
 use deck::analysis::{self as words, Analysis};
 use deck::expect::Expect;
-use deck::loads::Load;
 use deck::stages::{Stage, StageKind, Stop, StopQuantity};
 use deck::words::{Maybe, Names, Table};
 use mechanics::amplitude::Amplitude;
@@ -210,8 +209,7 @@ impl<'d> CurrentStage<'d> {
         deck.joints.retain(|table| self.holds(&table.stages));
         deck.links.retain(|table| self.holds(&table.stages));
         deck.contacts.retain(|table| self.holds(&table.stages));
-        let excites = |load: &Load| load.amplitude.as_ref().is_some_and(|name| names_harmonic(whole, name.as_str()));
-        deck.loads.retain(|table| match excites(table) {
+        deck.loads.retain(|table| match is_excitation(whole, table) {
             true => self.holds(&table.stages),
             false => self.is_loaded(&table.stages),
         });

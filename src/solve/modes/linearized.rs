@@ -65,6 +65,13 @@ impl Linearized<'_> {
         omega.norm() * self.model.analysis.end_time > ROUNDING
     }
 
+    /// The state with all spins multiplied by a factor.
+    pub fn spun(&self, factor: f64) -> State {
+        let mut state = self.state.clone();
+        state.nodes.iter_mut().for_each(|node| node.omega *= factor);
+        state
+    }
+
     /// The node that carries another by rigid links, and whether these have arms.
     pub fn root(&self, node: usize) -> (usize, bool) {
         let (mut root, mut arm) = (node, false);

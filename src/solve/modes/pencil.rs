@@ -10,7 +10,7 @@ use base::math::Vec6;
 use linear::eigen::SymmetricOperator;
 use linear::{Solver, Sparse};
 use mechanics::elements::Moduli;
-use mechanics::state::{Configuration, Node};
+use mechanics::state::{Configuration, Node, State};
 
 /// The weights K + rate·C + acceleration·M.
 pub fn weights(rate: f64, acceleration: f64) -> TangentWeights {
@@ -71,6 +71,11 @@ impl<'a> Pencil<'a> {
             solves: 0,
             solver,
         }
+    }
+
+    /// The pencil of another state, by the same solver.
+    pub fn about<'s>(&'s mut self, state: &'s State) -> Pencil<'s> {
+        Pencil::new(Linearized { state, ..self.at }, (&mut *self.solver, &mut *self.assembly))
     }
 
     /// Forms K + rate·C + acceleration·M with or without joints in the solver.

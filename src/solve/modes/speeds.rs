@@ -12,12 +12,10 @@ use crate::system::assembly::Assembly;
 use crate::tolerances::speeds::{CLOSE, CONTINUOUS, MOST_STEPS};
 use base::names::short;
 use linear::Solver;
-use mechanics::state::State;
 
 /// A scene whose spin is scaled.
 struct Spinning<'s, 'a> {
     at: &'s Linearized<'a>,
-    state: State,
     /// The speed of the fastest node as the state has it.
     fastest: f64,
     /// Factorizations and solutions so far.
@@ -39,7 +37,7 @@ pub fn over_speeds(
     if fastest == 0.0 {
         return Err(ModesFault::NothingSpins);
     }
-    let mut spinning = Spinning { at, state: at.state.clone(), fastest, effort: [0; 2] };
+    let mut spinning = Spinning { at, fastest, effort: [0; 2] };
     let mut found: Vec<SpeedModes> = Vec::with_capacity(speeds.len());
     let mut critical = Vec::new();
     for &speed in speeds {
@@ -71,10 +69,8 @@ pub fn over_speeds(
 impl Spinning<'_, '_> {
     /// The modes at a speed, by their frequency.
     fn modes(&mut self, speed: f64, linear: (&mut Solver, &mut Assembly)) -> Result<Vec<SpeedMode>, ModesFault> {
-        for (node, given) in self.state.nodes.iter_mut().zip(&self.at.state.nodes) {
-            node.omega = given.omega * (speed / self.fastest);
-        }
-        let modes = damped_modes(&Linearized { state: &self.state, ..*self.at }, linear)?;
+        let state = self.at.spun(speed / self.fastest);
+        let modes = damped_modes(&Linearized { state: &state, ..*self.at }, linear)?;
         self.effort[0] += modes.factorizations;
         self.effort[1] += modes.solves;
         let mode = |mode: &super::EigenMode| SpeedMode { root: [mode.root[0], mode.root[1].abs()], whirl: mode.whirl };

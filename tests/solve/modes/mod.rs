@@ -9,6 +9,7 @@ mod files;
 mod joints;
 mod motion;
 mod response;
+mod unbalance;
 
 use crate::support::read_deck;
 use rdsolve::model::Model;

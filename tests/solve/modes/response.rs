@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 type C64 = Complex<f64>;
 
 /// The complex motion of a node in a direction at each frequency, with the frequency.
-fn motion(found: &Modes, node: usize, dof: usize) -> Vec<(f64, C64)> {
+pub fn motion(found: &Modes, node: usize, dof: usize) -> Vec<(f64, C64)> {
     let response = found.response.as_ref().expect("a response");
     let place = response.nodes.binary_search(&node).expect("a node that is written");
     let of = |row: &rdsolve::modes::ResponseRow| {

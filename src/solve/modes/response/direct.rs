@@ -21,7 +21,7 @@ use crate::tolerances::direct_response::{
 };
 use base::math::Vec6;
 use base::names::short;
-use linear::{Factorization, Solver};
+use linear::{Factorization, Solver, Sparse};
 use model::{ModeExtent, ResponseAsked};
 use std::f64::consts::TAU;
 
@@ -63,8 +63,10 @@ pub fn response(
     let matrices = Matrices::of(&mut pencil, &gyroscopic);
     let highest = TAU * all.last().copied().unwrap_or(0.0);
     let joints = pencil.joints_at((BEYOND * highest).powi(2));
-    let stiffness = DynamicStiffness::new(&at.plan.structure, &matrices, &joints)?;
-    let mut direct = Direct { pencil, excitation, stiffness, so_far: &mut *progress.so_far, natural };
+    let mut stiffness = DynamicStiffness::new(&at.plan.structure)?;
+    stiffness.set(&matrices, &joints);
+    let speed = at.model.loading.unbalanced_node().map(|node| at.state.nodes[node].omega.norm());
+    let mut direct = Direct { pencil, excitation, stiffness, joints, speed, so_far: &mut *progress.so_far, natural };
     let mut response = Response::of(at.model, std::mem::take(&mut direct.so_far.rows));
     if let Err(stopped) = direct.find(at, &all, &mut *progress.pauses, &mut response) {
         direct.so_far.rows = response.rows;
@@ -103,7 +105,7 @@ fn unjudged(at: &Linearized) -> Option<String> {
 
 /// True for motions beside a frequency that agree within many times the difference of the frequencies; across a resonance they are
 /// opposite.
-fn agree([before, after]: &[[Vec<Vec6>; 2]; 2]) -> bool {
+fn agree([before, after]: [&[Vec<Vec6>; 2]; 2]) -> bool {
     let pairs = || before.iter().flatten().zip(after.iter().flatten());
     let largest = pairs().map(|(a, b)| a.amax().max(b.amax())).fold(0.0, f64::max);
     pairs().all(|(a, b)| (a - b).amax() <= SAME * largest)
@@ -114,6 +116,10 @@ struct Direct<'a> {
     pencil: Pencil<'a>,
     excitation: HarmonicExcitation,
     stiffness: DynamicStiffness,
+    /// The equations of joints.
+    joints: Sparse,
+    /// The spin of the state that is the angular frequency; `None` if spins do not follow it.
+    speed: Option<f64>,
     so_far: &'a mut ResponseSoFar,
     /// Natural frequencies, where they are known.
     natural: Vec<f64>,
@@ -134,18 +140,21 @@ impl Direct<'_> {
         let known = response.rows.len().min(all.len());
         for frequency in &all[known..] {
             look_up(at, response.rows.len() > known, pauses)?;
-            self.solve(*frequency, response);
+            self.solve(*frequency, response)?;
         }
         self.find_resonances(response)
     }
 
     /// Adds the motion at a frequency.
-    fn solve(&mut self, frequency: f64, response: &mut Response) {
-        let found = self.motions(frequency).or_else(|| {
+    fn solve(&mut self, frequency: f64, response: &mut Response) -> Result<(), ModesFault> {
+        let mut found = self.motions(frequency)?;
+        if found.is_none() {
             // A part that would resonate alone makes a pivot vanish, but the whole may not.
             let sides = [self.motions(frequency * (1.0 - ASIDE))?, self.motions(frequency * (1.0 + ASIDE))?];
-            agree(&sides).then(|| sides[0].clone())
-        });
+            if let [Some(before), Some(after)] = sides {
+                found = agree([&before, &after]).then_some(before);
+            }
+        }
         match found {
             Some([real, imaginary]) => response.keep(frequency, [&real, &imaginary]),
             None => {
@@ -154,6 +163,7 @@ impl Direct<'_> {
                 response.keep(frequency, [&infinite, &infinite]);
             }
         }
+        Ok(())
     }
 
     /// Records a frequency of unlimited motion.
@@ -176,7 +186,7 @@ impl Direct<'_> {
                 continue;
             }
             self.pencil.at.check_stop()?;
-            let Some([real, imaginary]) = self.motions(frequency * (1.0 + BESIDE_RESONANCE[0])) else { continue };
+            let Some([real, imaginary]) = self.motions(frequency * (1.0 + BESIDE_RESONANCE[0]))? else { continue };
             let mut beside = Response { nodes: response.nodes.clone(), rows: Vec::new() };
             beside.keep(frequency, [&real, &imaginary]);
             if beside.rows[0].largest() < BESIDE_RESONANCE[1] * motion {
@@ -188,12 +198,31 @@ impl Direct<'_> {
         Ok(())
     }
 
+    /// Forms the matrices and the excitation at an angular frequency where spins follow it: gyroscopic moments and the matrices of bearings change.
+    fn spin(&mut self, omega: f64) -> Result<(), ModesFault> {
+        let Some(speed) = self.speed else { return Ok(()) };
+        let state = self.pencil.at.spun(omega / speed);
+        let mut pencil = self.pencil.about(&state);
+        self.excitation = HarmonicExcitation::of(&pencil, true)?;
+        let gyroscopic = Gyroscopic::of(&pencil.at);
+        self.stiffness.set(&Matrices::of(&mut pencil, &gyroscopic), &self.joints);
+        Ok(())
+    }
+
     /// The motions of all nodes at a frequency, real and imaginary parts; `None` where the equations are singular.
-    fn motions(&mut self, frequency: f64) -> Option<[Vec<Vec6>; 2]> {
+    ///
+    /// # Errors
+    /// There is no memory.
+    fn motions(&mut self, frequency: f64) -> Result<Option<[Vec<Vec6>; 2]>, ModesFault> {
         let omega = TAU * frequency;
+        self.spin(omega)?;
         let at = self.pencil.at;
+        if self.excitation.is_nothing() {
+            // An unbalance at rest has no force, whatever moves without stiffness.
+            return Ok(Some([0, 1].map(|_| vec![Vec6::zeros(); self.pencil.nodes.len()])));
+        }
         if !self.stiffness.factor(omega) {
-            return None;
+            return Ok(None);
         }
         let n = at.unknowns();
         let mut f = vec![C64::new(0.0, 0.0); at.plan.dofs.unknowns()];
@@ -228,7 +257,7 @@ impl Direct<'_> {
             }
             f[..n].fill(C64::new(0.0, 0.0));
         }
-        Some(motions)
+        Ok(Some(motions))
     }
 
     /// The motions of all nodes that supports prescribe, real and imaginary parts.

@@ -36,17 +36,22 @@ pub struct DynamicStiffness {
 }
 
 impl DynamicStiffness {
-    /// Matrix of the unknowns of a structure, with the multipliers of `joints` last: their rows, columns and penalties.
+    /// An empty matrix of the unknowns of a structure.
     ///
     /// # Errors
     /// There is no memory.
-    pub fn new(structure: &Structure, matrices: &Matrices, joints: &Sparse) -> Result<DynamicStiffness, TooLarge> {
+    pub fn new(structure: &Structure) -> Result<DynamicStiffness, TooLarge> {
         let places = doubled(structure).1;
-        let solver = complex_solver(structure)?;
+        let scratch = vec![0.0; 2 * places.len()];
+        Ok(DynamicStiffness { solver: complex_solver(structure)?, entries: Vec::new(), places, omega: 0.0, scratch })
+    }
+
+    /// Replaces the entries. The multipliers of `joints` come last: their rows, columns and penalties.
+    pub fn set(&mut self, matrices: &Matrices, joints: &Sparse) {
         let of = [&matrices.K, &matrices.C, &matrices.M, joints];
-        let mut entries = Vec::new();
+        self.entries.clear();
         let mut row_of = std::collections::BTreeMap::new();
-        for row in 0..places.len() {
+        for row in 0..self.places.len() {
             row_of.clear();
             for (k, matrix) in of.iter().enumerate().filter(|(_, matrix)| row < matrix.rows()) {
                 for (column, value) in matrix.row(row) {
@@ -54,16 +59,14 @@ impl DynamicStiffness {
                 }
             }
             for (&column, &values) in &row_of {
-                let (at, to) = (places[row], places[column]);
-                let all = [[0, 0], [1, 1], [0, 1], [1, 0]].map(|[i, j]| solver.slot(at[i], to[j]));
+                let (at, to) = (self.places[row], self.places[column]);
+                let all = [[0, 0], [1, 1], [0, 1], [1, 0]].map(|[i, j]| self.solver.slot(at[i], to[j]));
                 if let [Some(a), Some(b), Some(c), Some(d)] = all {
                     let slots = [a, b, c, d].map(|slot| slot as u32);
-                    entries.push(Entry { row: row as u32, column: column as u32, slots, values });
+                    self.entries.push(Entry { row: row as u32, column: column as u32, slots, values });
                 }
             }
         }
-        let scratch = vec![0.0; 2 * places.len()];
-        Ok(DynamicStiffness { solver, entries, places, omega: 0.0, scratch })
     }
 
     /// Factorises at an angular frequency; false where the matrix is singular.

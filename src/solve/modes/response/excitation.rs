@@ -9,7 +9,7 @@ use crate::system::assembly::Assembly;
 use crate::system::{Excitation, Forces, Loading, Side};
 use base::math::{Vec3, Vec6, angular, linear, stack};
 use linear::{Factorization, Solver};
-use model::{History, Model};
+use model::{History, Load, Model};
 use nalgebra::Complex;
 
 /// A complex number.
@@ -77,8 +77,9 @@ fn forces(pencil: &Pencil, factor: C64) -> Vec<f64> {
     let loading = &model.loading;
     let ground = |field: Vec3, base: &model::BaseAcceleration| field - part(Some(base.amplitude)) * base.direction;
     let gravity = part(loading.gravity_amplitude) * loading.gravity;
+    let square = |load: &Load| if load.is_unbalance() { at.state.nodes[load.node].omega.norm_squared() } else { 1.0 };
     let harmonic = Loading {
-        factors: loading.nodal.iter().map(|load| part(load.amplitude)).collect(),
+        factors: loading.nodal.iter().map(|load| square(load) * part(load.amplitude)).collect(),
         pressures: loading.pressures.iter().map(|load| load.pressure * part(load.amplitude)).collect(),
         squares: vec![0.0; loading.centrifugal.len()],
         field: loading.base_accelerations.iter().fold(gravity, ground),

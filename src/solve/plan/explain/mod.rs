@@ -15,6 +15,7 @@ mod response;
 mod scene;
 mod shells;
 mod solution;
+mod spin;
 mod threads;
 
 pub use explanation::Explanation;
@@ -30,6 +31,7 @@ use model::Model;
 pub fn explain(plan: &Plan, model: &Model, system: &System) -> Explanation {
     let mut text = Explanation::default();
     analysis::explain(&mut text, model);
+    spin::explain(&mut text, model);
     scene::explain(&mut text, plan, model, system);
     quantities::explain(&mut text, model, system);
     damping::explain(&mut text, model);

@@ -59,7 +59,7 @@ fn mass(model: &Model, (mass, center): (f64, Vec3), units: Option<&UnitSystem>) 
 }
 
 /// A direction by its axis, "-z", or by its components.
-fn along(direction: &Vec3) -> String {
+pub fn along(direction: &Vec3) -> String {
     let axis = (0..3).find(|&i| direction[i].abs() > 1.0 - ROUNDING);
     match axis {
         Some(i) => format!("{}{}", if direction[i] < 0.0 { "-" } else { "" }, ["x", "y", "z"][i]),
@@ -98,8 +98,8 @@ fn loads(
         (0..3).for_each(|i| sums[place].1[i] += force[i]);
         (0..3).for_each(|i| sums[place].1[3 + i] += moment[i]);
     };
-    // The pretension of a link acts on a number, its shortening, and not in a direction.
-    let acts = |load: &&Load| load.coordinate().is_none() && !model.nodes[load.node].is_number;
+    // The pretension of a link acts on a number, its shortening, and not in a direction. An unbalance is no force before its spin is known.
+    let acts = |load: &&Load| load.coordinate().is_none() && !load.is_unbalance() && !model.nodes[load.node].is_number;
     for load in model.loading.nodal.iter().filter(acts) {
         let moment = if load.moment_counts { load.moment } else { Vec3::zeros() };
         add(load.amplitude, load.force, moment);

@@ -1,7 +1,7 @@
 //! A frequency response in words.
 
 use base::names::{joined, short};
-use model::{ModeExtent, Model, ResponseAsked, ResponseMethod};
+use model::{Load, ModeExtent, Model, ResponseAsked, ResponseMethod};
 
 /// Excitation, frequencies and method of a frequency response.
 pub fn explain(response: &ResponseAsked, model: &Model) -> String {
@@ -33,7 +33,8 @@ pub fn explain(response: &ResponseAsked, model: &Model) -> String {
 fn excitation(model: &Model) -> String {
     let loading = &model.loading;
     let harmonic = |i: Option<usize>| i.is_some_and(|i| loading.amplitudes[i].harmonic_phase().is_some());
-    let loads = loading.nodal.iter().filter(|load| harmonic(load.amplitude)).count();
+    let (turning, fixed): (Vec<&Load>, _) =
+        loading.nodal.iter().filter(|load| harmonic(load.amplitude)).partition(|load| load.is_unbalance());
     let pressures = loading.pressures.iter().filter(|load| harmonic(load.amplitude)).count();
     let ground = loading.base_accelerations.iter().filter(|base| harmonic(Some(base.amplitude))).count();
     let motions = model.constraints.restraints.iter().filter_map(|restraint| restraint.motion.as_ref());
@@ -44,7 +45,8 @@ fn excitation(model: &Model) -> String {
         _ => Some(format!("{count} {many}")),
     };
     let all = [
-        count(loads + pressures, "load", "loads"),
+        count(turning.len() / 2, "unbalance", "unbalances"),
+        count(fixed.len() + pressures, "load", "loads"),
         count(motions, "prescribed degree of freedom", "prescribed degrees of freedom"),
         count(ground, "acceleration of the ground", "accelerations of the ground"),
         harmonic(loading.gravity_amplitude).then(|| "gravity".to_owned()),
