@@ -3,7 +3,7 @@
 use base::names::to_digits;
 use base::quantities::{Unit, UnitSystem};
 use model::Model;
-use solve::modes::{EigenMode, ModeKind, Modes};
+use solve::modes::{EigenMode, ModeKind, Modes, Whirl};
 use std::fmt::Write;
 
 /// Modes that are listed; modes.csv has all.
@@ -121,13 +121,10 @@ fn of_critical_speeds(modes: &Modes, units: Option<&UnitSystem>) -> Vec<String> 
     table(&["critical", &heading("speed", Unit::AngularVelocity, units), "damping", "whirl"], rows)
 }
 
-/// "forward", "backward" of orbits that are nearly circular or elliptic, "planar" of those along lines.
-fn whirl_in_words(whirl: Option<f64>) -> String {
-    /// Orbits with a smaller sense are lines to the eye.
-    const PLANAR: f64 = 0.01;
-    match whirl {
-        None => String::new(),
-        Some(whirl) if whirl.abs() < PLANAR => "planar".to_owned(),
-        Some(whirl) => format!("{} {}", if whirl > 0.0 { "forward" } else { "backward" }, to_digits(whirl.abs(), 2)),
-    }
+/// "forward", "backward" with their sense, "planar" and "torsion or axial".
+fn whirl_in_words(whirl: Option<Whirl>) -> String {
+    whirl.map_or_else(String::new, |whirl| match whirl.kind() {
+        kind @ ("forward" | "backward") => format!("{kind} {}", to_digits(whirl.sense.abs(), 2)),
+        kind => kind.to_owned(),
+    })
 }

@@ -15,7 +15,7 @@ pub struct Expect {
     pub at: Maybe<String>,
     /// Instead of `at`: number of a mode, 1 or more; the quantity is then a column of modes.csv, and needs no time.
     pub mode: Maybe<u64>,
-    /// Instead of `at`: number of a critical speed, the lowest 1; the quantity is then a column of critical_speeds.csv.
+    /// Instead of `at`: number of a critical speed among those of every kind, torsion included, the lowest 1; the quantity is then a column of critical_speeds.csv.
     pub critical_speed: Maybe<u64>,
     /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv, joints.csv, drifts.csv or energy.csv. For a joint, "fx" to "mz" act on its
     /// first part (`from`). For a supported point, body or set they are the reaction of its supports on the structure. For a contact "force", and

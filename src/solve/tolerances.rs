@@ -773,6 +773,8 @@ pub mod speeds {
     pub const CLOSE: f64 = 1e-10;
     /// A larger difference at the end of the search is a jump of the frequency.
     pub const CONTINUOUS: f64 = 1e-6;
+    /// Orbits with a smaller sense are lines to the eye.
+    pub const PLANAR: f64 = 0.01;
     /// Most steps of a search; halving alone reaches the tolerance in 34.
     pub const MOST_STEPS: usize = 60;
 }

@@ -145,7 +145,6 @@ fn every_failure_of_modes_says_what_to_change() {
         ModesFault::NoLoads,
         ModesFault::NoBuckling,
         ModesFault::NothingExcites,
-        ModesFault::NothingSpins,
         ModesFault::Stopped,
     ];
     let texts: Vec<String> = faults.into_iter().map(|fault| Failure::Modes(fault).to_string()).collect();

@@ -25,6 +25,17 @@ pub fn initial<'d>(scene: &Scene<'d>, amplitudes: &[Amplitude], topology: &mut T
     motions.given.report_contradictions(motions.topology, motions.report);
     stop_restrained(topology);
     move_dependents(topology);
+    refuse_idle_speeds(scene, topology, report);
+}
+
+/// Refuses `speeds` of a scene that has no spin.
+fn refuse_idle_speeds(scene: &Scene, topology: &Topology, report: &mut Report) {
+    let speeds = scene.deck.analysis.as_ref().and_then(|analysis| analysis.speeds.as_ref());
+    let Some(speeds) = speeds.filter(|_| topology.is_complete()) else { return };
+    if topology.list.iter().all(|node| node.omega == Vec3::zeros()) {
+        let hint = "give the rotor an `angular_velocity`, in `[[bodies]]` or `[[initial]]`: its direction counts";
+        report.error_with::<()>(&speeds.span, "nothing spins at t = 0, so `speeds` rotates nothing", hint);
+    }
 }
 
 struct Motions<'a, 'd> {

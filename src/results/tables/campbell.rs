@@ -27,7 +27,7 @@ fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
         for (number, mode) in (1..).zip(&at_speed.list) {
             let row = table.row(frame.step, frame.state.time).number(at_speed.speed).count(number);
             row.number(mode.root[1] / TAU).number(mode.root[1]).optional(mode.damping_ratio());
-            row.number(mode.root[0]).optional(mode.whirl).end()?;
+            row.number(mode.root[0]).optional(mode.whirl.map(|whirl| whirl.sense)).end()?;
         }
     }
     Ok(())

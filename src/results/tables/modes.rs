@@ -53,7 +53,7 @@ fn values(mode: &EigenMode) -> [Option<f64>; MODE.len()] {
         }
     }
     all[19] = strain;
-    all[20] = mode.whirl;
+    all[20] = mode.whirl.map(|whirl| whirl.sense);
     all
 }
 

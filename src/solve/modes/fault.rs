@@ -45,8 +45,6 @@ pub enum ModesFault {
     NoBuckling,
     /// Nothing that is harmonic moves anything.
     NothingExcites,
-    /// Modes over speeds of rotation are asked for, and nothing rotates.
-    NothingSpins,
     /// A signal has stopped the search.
     Stopped,
     /// There is no memory.
@@ -66,7 +64,6 @@ keep_either!(ModesFault {
     9 => TooLarge(needed),
     10 => NothingExcites,
     11 => Stopped,
-    12 => NothingSpins,
 });
 
 impl From<TooLarge> for ModesFault {
@@ -100,9 +97,6 @@ impl ModesFault {
             ModesFault::NothingExcites => {
                 "no harmonic load or motion moves anything: they act on supports alone, or are zero. Let one of them, with an `amplitude` of \
                  kind \"harmonic\", act on a node that is free"
-            }
-            ModesFault::NothingSpins => {
-                "no body spins at t = 0, so `speeds` rotates nothing. Give the rotor an angular velocity in `[[initial]]`, whose axis counts"
             }
             _ => "a signal stopped the search for `modes`. Start the run again",
         }

@@ -5,6 +5,7 @@
 
 use super::linearized::Linearized;
 use super::mode::EigenMode;
+use super::speed_modes::Whirl;
 use super::spinning_parts::spinning_parts;
 use crate::system::{ConsistentMass, dependents};
 use crate::tolerances::gyroscopic::{ORBIT, SAG, SYMMETRIC, UNEVEN};
@@ -88,8 +89,8 @@ impl Gyroscopic {
         !self.blocks.is_empty()
     }
 
-    /// The sense of the orbits of a mode, weighted by mass and inertia, as in [`EigenMode::whirl`].
-    pub fn whirl(&self, at: &Linearized, mode: &EigenMode) -> Option<f64> {
+    /// The orbits of a mode, weighted by mass and inertia.
+    pub fn whirl(&self, at: &Linearized, mode: &EigenMode) -> Option<Whirl> {
         let e = self.momentum.try_normalize(0.0)?;
         if mode.root[1] == 0.0 || mode.quadrature.is_empty() {
             return None;
@@ -120,9 +121,9 @@ impl Gyroscopic {
         }
         // Torsion and motion along the shaft have no orbits, and rounding across it has any.
         if size <= ORBIT * along {
-            return (along > 0.0).then_some(0.0);
+            return (along > 0.0).then_some(Whirl { sense: 0.0, is_along: true });
         }
-        Some(sense / size)
+        Some(Whirl { sense: sense / size, is_along: false })
     }
 
     /// Hands the entries of the matrix of rates to `visit`.

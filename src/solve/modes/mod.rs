@@ -36,7 +36,7 @@ pub use mode::{EigenMode, ModeKind, Modes, Share};
 pub use reduction::reduce;
 pub use response::complex_solver;
 pub use rest::{multipliers_at_rest, own_stiffnesses};
-pub use speed_modes::{CriticalSpeed, SpeedMode, SpeedModes};
+pub use speed_modes::{CriticalSpeed, SpeedMode, SpeedModes, Whirl};
 pub use steady::{Response, ResponseProgress, ResponseRow, ResponseSoFar};
 
 use crate::system::assembly::Assembly;

@@ -1,6 +1,6 @@
 //! Data of a mode.
 
-use super::speed_modes::{CriticalSpeed, SpeedModes};
+use super::speed_modes::{CriticalSpeed, SpeedModes, Whirl};
 use super::steady::Response;
 use base::math::Vec6;
 use linear::eigen::Complex;
@@ -59,9 +59,8 @@ pub struct EigenMode {
     pub participation: [f64; 6],
     /// Parts of the strain energy, in the order of [`model::Model::parts`].
     pub shares: Vec<Share>,
-    /// Sense of its orbits: 1 circular with the spin of bodies, −1 against it; `None` where nothing spins or the mode does not oscillate. Nodes of a
-    /// reduced part count by equal shares of its mass.
-    pub whirl: Option<f64>,
+    /// Its orbits; `None` where nothing spins or the mode does not oscillate. Nodes of a reduced part count by equal shares of its mass.
+    pub whirl: Option<Whirl>,
     /// Frequency below which rounding hides a motion with stiffness, which is listed as zero; `None` otherwise.
     pub lost: Option<f64>,
 }

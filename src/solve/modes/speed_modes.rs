@@ -1,5 +1,6 @@
 //! Modes over speeds of rotation, and critical speeds.
 
+use crate::tolerances::speeds::PLANAR;
 use linear::eigen::Complex;
 
 /// The modes at a speed of rotation.
@@ -11,13 +12,34 @@ pub struct SpeedModes {
     pub list: Vec<SpeedMode>,
 }
 
+/// The orbits of a mode about the axis of the spin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Whirl {
+    /// 1 circular with the spin, −1 circular against it, 0 along lines.
+    pub sense: f64,
+    /// True for torsion and motion along the axis, which have no orbits.
+    pub is_along: bool,
+}
+
+impl Whirl {
+    /// The orbits in a word.
+    pub fn kind(&self) -> &'static str {
+        match self.sense {
+            _ if self.is_along => "torsion or axial",
+            sense if sense.abs() < PLANAR => "planar",
+            sense if sense > 0.0 => "forward",
+            _ => "backward",
+        }
+    }
+}
+
 /// A mode at a speed, without its shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpeedMode {
     /// Growth rate and angular frequency, 0 or more.
     pub root: Complex,
     /// As in [`super::EigenMode::whirl`].
-    pub whirl: Option<f64>,
+    pub whirl: Option<Whirl>,
 }
 
 /// A speed that is the frequency of a mode.

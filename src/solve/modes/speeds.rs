@@ -25,18 +25,14 @@ struct Spinning<'s, 'a> {
 /// Adds to the modes of a state those over speeds of rotation.
 ///
 /// # Errors
-/// Nothing spins, or the reason why there are no modes at one of the speeds.
+/// The reason why there are no modes at one of the speeds.
 pub fn over_speeds(
     at: &Linearized,
     speeds: &[f64],
     mut modes: Modes,
     (solver, assembly): (&mut Solver, &mut Assembly),
 ) -> Result<Modes, ModesFault> {
-    let omegas = at.state.nodes.iter().map(|node| node.omega).filter(|omega| at.spins(omega));
-    let fastest = omegas.map(|omega| omega.norm()).fold(0.0, f64::max);
-    if fastest == 0.0 {
-        return Err(ModesFault::NothingSpins);
-    }
+    let fastest = at.state.nodes.iter().map(|node| node.omega.norm()).fold(0.0, f64::max);
     let mut spinning = Spinning { at, fastest, effort: [0; 2] };
     let mut found: Vec<SpeedModes> = Vec::with_capacity(speeds.len());
     let mut critical = Vec::new();

@@ -118,9 +118,9 @@ fn reduced_rotor() {
     // Modes beyond the twelfth; without its own moments the shaft errs by 4e-3.
     assert!(off(&omegas(&few.list), &omegas(&full.list)) < 2e-4);
     // Orbits are circles, to the rounding of shapes.
-    let senses = |of: &[EigenMode]| -> Vec<f64> { of[1..].iter().map(|mode| mode.whirl.unwrap()).collect() };
+    let senses = |of: &[EigenMode]| -> Vec<f64> { of[1..].iter().map(|mode| mode.whirl.unwrap().sense).collect() };
     assert!(
-        full.list[1..].iter().zip(senses(&few.list)).all(|(mode, few)| (mode.whirl.unwrap() - few).abs() < 1e-5),
+        full.list[1..].iter().zip(senses(&few.list)).all(|(mode, few)| (mode.whirl.unwrap().sense - few).abs() < 1e-5),
         "{:?}",
         senses(&few.list)
     );
