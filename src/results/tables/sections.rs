@@ -13,7 +13,8 @@ pub static TABLE: TableKind = TableKind {
             on the part before the point. Moments are about the centroid. With { at = \"ends\" } there is one row for each end of each \
             element, in equilibrium with the forces at the nodes. With { at = \"both\" } the table has both kinds of rows. Stresses are \
             those of the elastic section under the resultants, at its extreme points: corners, faces of walls, middles of sides, the edge \
-            of a tube. If the material yields, they are those of the fibres, at integration points alone. The von Mises stress then has \
+            of a tube. If the material yields, they are those of the fibres, at integration points alone: `integration = \"lobatto\"` \
+            of the beam puts some at the ends. The von Mises stress then has \
             no shear stress unless the yield condition contains it. In concrete `plastic_strain` is the larger of the plastic strain of \
             crushing and the accumulated plastic strain of the bars. Sections of shape \"general\" have none. Written with `[output] \
             sections` if there are beams.",

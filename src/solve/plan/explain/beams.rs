@@ -4,9 +4,9 @@ use super::explanation::Explanation;
 use crate::system::System;
 use crate::system::parts::beams::merges_fibres;
 use crate::tolerances::weak_axis::{LEVEL, OPEN, STRONG};
-use base::names::short;
+use base::names::{short, to_digits};
 use mechanics::elements::beam::IntegrationRule;
-use model::{Beam, BeamElement, Model};
+use model::{Beam, BeamElement, Model, SectionPlaces};
 use nalgebra::Vector2;
 
 /// One beam, and several.
@@ -33,6 +33,9 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
             );
             text.add_of("weak axis", BEAMS, &beam.name, flat);
         }
+        if let Some(inside) = inside(beam, model) {
+            text.add_of("stresses", BEAMS, &beam.name, inside);
+        }
         let Some(yielding) = &beam.yielding else { continue };
         let (fibres, points) = (yielding.fibres(), yielding.points);
         let rule = if yielding.rule == IntegrationRule::Gauss { "Gauss" } else { "Lobatto" };
@@ -50,6 +53,26 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
             format!("{fibres} fibres{of} at {points} {rule} points per element, yielding under {stress}{merged}");
         text.add_of("yielding", BEAMS, &beam.name, section);
     }
+}
+
+/// The distance of the stresses of sections.csv from the ends of elements, and the remedy; `None` if some stand at the ends.
+fn inside(beam: &Beam, model: &Model) -> Option<String> {
+    let places = model.output.sections?;
+    let (rule, points, remedy) = match &beam.yielding {
+        Some(yielding) if places != SectionPlaces::Ends => {
+            (yielding.rule, yielding.points, "`integration = \"lobatto\"` has points at the ends")
+        }
+        None if places == SectionPlaces::Points => {
+            (IntegrationRule::Gauss, beam.order, "`sections = { at = \"ends\" }` has those at the ends")
+        }
+        _ => return None,
+    };
+    let outermost = rule.points(points).0.iter().fold(0.0, |most: f64, at| most.max(at.abs()));
+    let part = 50.0 * (1.0 - outermost);
+    (part > 0.0).then(|| {
+        let part = to_digits(part, 2);
+        format!("at integration points, {part} % of an element from its ends: at a clamp they miss {part} % of their change over the element. {remedy}")
+    })
 }
 
 /// The orientation that turns the strong axis of a horizontal beam against gravity, where its weak one is there and its section is open: flat bars
