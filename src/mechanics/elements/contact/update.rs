@@ -36,6 +36,11 @@ pub(super) fn update_point(
     let motion = NormalMotion { gap: at.gap, inset: contacts.inset(old), rate: at.rate(), power, speed };
     let (impact, inset) = update_normal(law, &motion, now, part, old, new);
     let mut spent = Dissipation { impact, ..Dissipation::default() };
+    if contacts.is_idle(old) {
+        // The node goes in without a force, and so without losses.
+        spent.impact = 0.0;
+        new.set_damping_power(0.0);
+    }
     contacts.remember_inset(&at, inset, now, old, new);
     // The multiplier stays that of the equilibrium, in which it gives the force at the present gap; the next step starts from it.
     new.set_lift(law, old.lift(law));
