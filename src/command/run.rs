@@ -351,6 +351,9 @@ impl Job<'_> {
         watchers.log.sum_up()?;
         let mesh = self.mesh_error_of(&outcome, run, &mut watchers);
 
+        if matches!(outcome, Outcome::Done) {
+            told.tell_untouched();
+        }
         told.remarks.iter().try_for_each(|remark| watchers.log.say(&format!("note: {remark}")))?;
         let warnings = std::mem::take(&mut told.warnings);
         let steps = told.step_error.map(step_error);

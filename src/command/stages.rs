@@ -1,5 +1,6 @@
 //! One stage after the other: each begins with the state that the one before has reached.
 
+use std::collections::BTreeSet;
 use std::io;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -20,7 +21,7 @@ use results::{listed, settle_cadence, wanted_with};
 use solve::plan::Plan;
 use solve::plan::explain::{Explanation, explain};
 use solve::system::System;
-use solve::{Counts, Handover, Outcome, Run, StepError};
+use solve::{Counts, Failure, Handover, Outcome, Run, StepError};
 
 /// The reports of the stages of a run for its end.
 #[derive(Default)]
@@ -49,10 +50,12 @@ pub struct StagesTold {
     pub plan: Option<Explanation>,
     /// The plans of later stages as far as they differ from those before, line by line.
     pub plans: Vec<String>,
+    /// Names of the contacts that have touched in some stage, and of those that have not in some stage.
+    pub contacts: [Vec<String>; 2],
 }
 
 keep!(StagesTold {
-    warnings, remarks, energy, counts, rotation_drift, joint_violation, failed, step_error, short,
+    warnings, remarks, energy, counts, rotation_drift, joint_violation, failed, step_error, short, contacts,
 } without { observing, plan, plans });
 
 impl StagesTold {
@@ -133,7 +136,7 @@ fn unfit() -> io::Error {
 
 impl StagesTold {
     /// Takes account of a stage that has ended.
-    fn take(&mut self, run: &Run, model: &Model, end_time: Option<f64>) {
+    fn take(&mut self, run: &Run, model: &Model, outcome: &Outcome, end_time: Option<f64>) {
         let stage = match model_stage(model) {
             "" => String::new(),
             name => format!("stage `{name}`: "),
@@ -148,7 +151,11 @@ impl StagesTold {
         let effort = run.counts().since(&self.counts);
         // Without a step, as after a signal before the first one, nothing could move.
         let at_rest = rest_warning(run.balance(), model).filter(|_| stage.is_empty() && effort.steps > 0);
-        let of_run = energy_warning(run.balance(), model).into_iter().chain(at_rest).chain(work_warning(run));
+        // The reason of a run that fails by it names the growth of energy once.
+        let is_lost = matches!(outcome, Outcome::Failed { failure: Failure::EnergyGrowth { .. }, .. });
+        let balance = Some(run.balance()).filter(|_| !is_lost);
+        let of_energy = balance.and_then(|balance| energy_warning(balance, model));
+        let of_run = of_energy.into_iter().chain(at_rest).chain(work_warning(run));
         let of_stage = stop_missed(run, model)
             .into_iter()
             .chain(left_held(run, model, end_time))
@@ -156,7 +163,11 @@ impl StagesTold {
         let of_run =
             of_run.chain(ringing_warning(effort, model)).chain(overshoot_warning(run)).chain(rows_warning(run, model));
         self.warnings.extend(of_run.chain(of_stage).map(|text| format!("{stage}{text}")));
-        self.energy.extend(energy_line(run.balance(), model).map(|line| format!("{stage}{line}")));
+        self.energy
+            .extend(balance.and_then(|balance| energy_line(balance, model)).map(|line| format!("{stage}{line}")));
+        if !model.analysis.has_modes() {
+            self.contacts.iter_mut().zip(run.contacts()).for_each(|(all, of_stage)| all.extend(of_stage));
+        }
         self.counts = run.counts();
         self.observing += run.observing();
         self.rotation_drift = self.rotation_drift.max(run.rotation_drift());
@@ -164,6 +175,23 @@ impl StagesTold {
         self.failed = run.broken().or(self.failed);
         self.step_error = run.step_error().or(self.step_error);
         self.short = end_time.and_then(|time| short_of_stop(model, run, time));
+    }
+
+    /// Says of contacts that nothing touched in the whole run: a note where another did, or else a warning.
+    pub fn tell_untouched(&mut self) {
+        let [touched, open] = std::mem::take(&mut self.contacts);
+        let open: BTreeSet<String> = open.into_iter().filter(|name| !touched.contains(name)).collect();
+        if open.is_empty() {
+            return;
+        }
+        let names = open.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        let what = if open.len() == 1 { "contact" } else { "contacts" };
+        match touched.is_empty() {
+            true => self.warnings.push(format!(
+                "nothing ever touched in {what} {names}. Look at the place and the direction of the motion, or remove the table"
+            )),
+            false => self.remarks.push(format!("nothing ever touched in {what} {names}")),
+        }
     }
 }
 
@@ -290,7 +318,7 @@ impl StageRunner<'_> {
         let (outcome, state) = run.run(watchers);
         // Later stages have other matrices.
         run.forget_matrix();
-        told.take(run, model, state.as_ref().map(|state| state.time));
+        told.take(run, model, &outcome, state.as_ref().map(|state| state.time));
         // A checkpoint in a later stage needs the end of this one; the last stage has no successor.
         let has_later = course.past.len() < self.loaded.later.len();
         if let (Outcome::Done, Some(state), true) = (&outcome, &state, has_later) {

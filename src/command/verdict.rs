@@ -10,6 +10,9 @@ use solve::system::energy::Balance;
 use solve::{Counts, Outcome, Run, settling_energy};
 use std::io;
 
+/// A larger part of the energy is seen in the results.
+const SEEN: f64 = 0.02;
+
 /// The end of a run.
 pub struct End {
     /// The kind of end, which decides the exit code.
@@ -99,14 +102,31 @@ pub fn energy_line(balance: &Balance, model: &Model) -> Option<String> {
     if motion <= balance.rounding {
         return None;
     }
-    let percent = |energy: f64| of_motion(energy, balance);
+    let of = |energy: f64| of_motion(energy, balance);
     Some(if balance.lost() < 0.0 && balance.is_work_of_dampers(-balance.lost()) {
-        format!("balance of energy: dampers have dissipated more than there was, by {}", percent(-balance.lost()))
+        format!("balance of energy: dampers have dissipated more than there was, by {}", of(-balance.lost()))
+    } else if is_seen(balance.generated, balance, model) {
+        format!("numerical growth of energy: {}", of_largest(balance.generated, balance))
     } else if balance.lost() < 0.0 {
-        format!("numerical growth of energy: {}", percent(-balance.lost()))
+        format!("numerical growth of energy: {}", of(-balance.lost()))
     } else {
-        format!("numerical dissipation: {}", percent(balance.lost()))
+        format!("numerical dissipation: {}", of(balance.lost()))
     })
+}
+
+/// True where energy that was generated is seen in the results.
+fn is_seen(generated: f64, balance: &Balance, model: &Model) -> bool {
+    generated > SEEN * balance.peak.max(unseen(balance, model))
+}
+
+/// An energy too small to be seen.
+fn unseen(balance: &Balance, model: &Model) -> f64 {
+    settling_energy(model).max(balance.rounding)
+}
+
+/// A part of the largest energy in words.
+fn of_largest(energy: f64, balance: &Balance) -> String {
+    format!("{} % of the largest energy", to_digits(100.0 * energy / balance.peak, 2))
 }
 
 /// A part of the energy of the motion in words. Of steady motion it is far from that of all energy, and neither alone says how much
@@ -179,26 +199,23 @@ pub fn rest_warning(balance: &Balance, model: &Model) -> Option<String> {
     })
 }
 
-/// True where gravity acts at once at t = 0 on supported deformable parts.
+/// True where gravity acts at once at t = 0 on deformable parts, and supports hold all that has mass.
 fn weighs_at_once(model: &Model) -> bool {
     let loading = &model.loading;
     let at_start = loading.gravity_amplitude.map_or(1.0, |index| loading.amplitudes[index].value(0.0));
     let deforms = model.parts.iter().any(|part| part.kind().is_deformable());
-    let is_held = !model.constraints.restraints.is_empty();
-    model.analysis.begin == 0.0 && at_start * loading.gravity.norm() != 0.0 && deforms && is_held
+    model.analysis.begin == 0.0 && at_start * loading.gravity.norm() != 0.0 && deforms && model::holds_all(model)
 }
 
 /// The warning about a bad energy balance; `None` if it is good.
 pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
-    /// A larger part of the energy of the motion at the end is seen in the results.
-    const SEEN: f64 = 0.02;
     /// The limit for the largest energy on the way. It is less strict, because an impact stores and returns energy within a step.
     const ON_THE_WAY: f64 = 0.2;
     if model.analysis.kind != AnalysisKind::Dynamic {
         return None;
     }
-    let (motion, unseen) = (balance.motion(), settling_energy(model).max(balance.rounding));
-    let part = |energy: f64| format!("{} % of the largest energy", to_digits(100.0 * energy / balance.peak, 2));
+    let (motion, unseen) = (balance.motion(), unseen(balance, model));
+    let part = |energy: f64| of_largest(energy, balance);
     let shorter = match model.analysis.step_length {
         StepLength::Fixed { .. } | StepLength::ArcLength(_) => "a tenth of `time_step`",
         StepLength::StabilityLimited { .. } => "a number as `time_step`, shorter than the steps of \"auto\"",
@@ -216,7 +233,7 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
         true => format!("{remedy}. Gravity acts at once at t = 0: bring it on in a static stage before the motion"),
         false => remedy,
     };
-    if balance.generated > SEEN * balance.peak.max(unseen) {
+    if is_seen(balance.generated, balance, model) {
         let part = part(balance.generated);
         // Plastic work is booked with the stress at the end of a step, which the motion meets only then. It is the plastic
         // strain that comes out wrong by it: no motion is made.

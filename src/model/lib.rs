@@ -62,6 +62,7 @@ pub mod inner {
 pub use build::{build_read, read, read_stages, replan};
 pub use data::*;
 pub use mesh_file::Input;
+pub use plausibility::loose::holds_all;
 pub use procedure::study;
 pub use records::{Record, load_records};
 pub use superelements::rigid_motion::{SuperelementMatrices, WrongMatrix, settle};

@@ -325,8 +325,8 @@ fn energy_growth(ratio: f64, scheme: Option<&str>, shortens: &str) -> String {
             let dissipates = "`scheme = \"bathe\"`, which dissipates motions that steps do not resolve, and ";
             let other = if scheme == "bathe" { "" } else { dissipates };
             format!(
-                "energy growth: `{scheme}` has generated {ratio:.1e} times the available energy, and the motion is lost. Give {other}a tenth of \
-                 `{shortens}`"
+                "energy growth: `{scheme}` has added {} % of the largest energy, and the motion is lost. Give {other}a tenth of `{shortens}`",
+                to_digits(100.0 * ratio, 2)
             )
         }
     }

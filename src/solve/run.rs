@@ -27,7 +27,7 @@ use crate::system::kinks::has_kinks;
 use base::snapshot::{Keep, Snapshot};
 use linear::{Solver, TooLarge};
 use mechanics::state::State;
-use model::{Model, StepLength};
+use model::{Contact, Model, PartType, StepLength};
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
@@ -345,6 +345,16 @@ impl<'a> Run<'a> {
     /// The largest motion between the rows of tables, if they are too far apart to follow it.
     pub fn row_gap(&self) -> Option<RowGap> {
         self.recorder.row_gaps.largest(self.context.rounding)
+    }
+
+    /// Names of the contacts with a force that have touched, and of those that have not.
+    pub fn contacts(&self) -> [Vec<String>; 2] {
+        let parts = self.context.model.parts.iter().enumerate();
+        let acting =
+            parts.filter_map(|(place, part)| Some((place, Contact::of(part).filter(|one| one.law.is_some())?)));
+        let has_touched = |(place, _): &(usize, &Contact)| self.workspace.warnings.touched.contains(place);
+        let (touched, open): (Vec<_>, Vec<_>) = acting.partition(has_touched);
+        [touched, open].map(|all| all.into_iter().map(|(_, contact)| contact.name.clone()).collect())
     }
 
     /// The remarks on omitted checks.

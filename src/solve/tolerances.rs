@@ -313,6 +313,9 @@ pub mod energy_growth {
     /// Kinetic energy at the end of a run by other schemes, beyond the available energy and as a multiple of it, above which the run fails. A
     /// sudden start leaves a multiple of 3 in unresolved modes for some steps.
     pub const LOST: f64 = 10.0;
+    /// Energy that other schemes have added by the end, as a part of the largest energy, above which the run fails: speeds are then wrong by
+    /// more than a twentieth.
+    pub const GROWN: f64 = 0.1;
     /// Part of the available energy that steps may generate with sound results.
     pub const SOUND: f64 = 0.02;
 }

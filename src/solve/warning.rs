@@ -461,11 +461,13 @@ fn beyond_yield(name: &str, stress: f64, limit: f64) -> String {
 pub struct Warnings {
     warnings: Vec<Warning>,
     remarks: Vec<Remark>,
+    /// The contacts that have touched, by their indices in [`model::Model::parts`].
+    pub(super) touched: Vec<usize>,
     /// For central differences, the sums of (ω Δt)² v² and of v² by modes over all steps, which show whether steps resolve the motion.
     pub(super) resisted: [f64; 2],
 }
 
-keep!(Warnings: Default { warnings, remarks, resisted });
+keep!(Warnings: Default { warnings, remarks, touched, resisted });
 
 impl Warnings {
     /// Adds a warning, unless there is one of its kind already.

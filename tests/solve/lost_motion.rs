@@ -48,7 +48,7 @@ fn a_motion_that_grows_without_end_fails_and_shorter_steps_or_dissipation_mend_i
     // ω dt = 5 against a limit of 2.58.
     let (code, said, _) = run(&oscillator(UNSTABLE, 5e-3, ""));
     assert_eq!(code, 4, "{said}");
-    let told = "energy growth: `newmark` has generated ";
+    let told = "energy growth: `newmark` has added ";
     assert!(said.contains(told) && said.contains("the motion is lost. Give `scheme = "), "{said}");
     // Its balance was kept at t = 0 alone.
     assert!(said.contains("results are valid up to t = 0\n"), "{said}");
@@ -107,4 +107,48 @@ fn without_energies_a_lost_motion_fails_where_its_energy_is_known() {
     let loaded = format!("{output}[[loads]]\nat = \"p\"\nforce = [1.0, 0.0, 0.0]\n");
     let (code, said, out) = run(&oscillator(UNSTABLE, 5e-3, &loaded));
     assert!(code == 0 && out.contains("not measured, because `energy` in [output] is false"), "{said}{out}");
+}
+
+/// A ball that meets the ground at 50 m/s.
+fn ball(time_step: f64, velocity: f64) -> String {
+    format!(
+        r#"
+[analysis]
+kind = "dynamic"
+end_time = 0.1
+time_step = {time_step:?}
+[integrator]
+scheme = "newmark"
+[[bodies]]
+name = "b"
+center = [0.0, 0.0, 0.2]
+mass = 1.0
+velocity = [0.0, 0.0, {velocity:?}]
+shape = {{ kind = "sphere", radius = 0.1 }}
+[[contacts]]
+name = "g"
+surface = {{ shape = "plane", point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}
+with = "b"
+stiffness = 2.5e7
+restitution = 0.1
+"#
+    )
+}
+
+/// Steps of two thirds of an impact add 13 % of the energy: the run fails, and its reason alone says how much was added.
+#[test]
+fn a_tenth_more_energy_than_there_was_is_no_result() {
+    let (code, said, printed) = run(&ball(4e-4, -50.0));
+    assert_eq!(code, 4, "{said}");
+    let all = said + &printed;
+    assert_eq!(all.matches("energy growth").count(), 1, "{all}");
+    assert!(!all.contains("numerical growth"), "{all}");
+    let (code, said, _) = run(&ball(4e-5, -50.0));
+    assert!(code == 0 && !said.contains("energy growth"), "{said}");
+}
+
+#[test]
+fn a_contact_that_nothing_touched_is_named() {
+    let untouched = |velocity: f64| run(&ball(4e-5, velocity)).1.contains("nothing ever touched in contact `g`");
+    assert!(untouched(50.0) && !untouched(-50.0));
 }

@@ -1,6 +1,6 @@
 //! Warning for parts without a connection to any support.
 
-use crate::data::{AnalysisKind, Model};
+use crate::data::{AnalysisKind, Body, Contact, Model, Part, TouchedSurface};
 use crate::report::Report;
 
 /// Warns of parts at rest that have no connection to supported ones, and no load. In statics the matrix is singular there; in dynamics they fall
@@ -42,6 +42,11 @@ pub fn check_loose(model: &Model, report: &mut Report) {
             let does = if is_static { "there is no static equilibrium" } else { "all of them fall freely" };
             let message = format!("no support, joint or contact holds `{name}` or any other part: {does}");
             report.warn(&place(*node), message, "add `[[supports]]`");
+        } else if let Some((name, node)) = all.first().filter(|_| falls && !is_static && !lands_on_ground(model)) {
+            let message = format!(
+                "no support, joint or contact holds `{name}` or any other part to the ground: all of them fall freely"
+            );
+            report.note(&place(*node), message, "add `[[supports]]`, if that is not meant");
         }
         return;
     }
@@ -61,6 +66,24 @@ pub fn check_loose(model: &Model, report: &mut Report) {
     }
 }
 
+/// True where a contact has a surface on the ground.
+fn lands_on_ground(model: &Model) -> bool {
+    model.each::<Contact>().any(|contact| match &contact.surface {
+        TouchedSurface::Shape(carried) => Body::at(&model.bodies, carried.node).is_none(),
+        TouchedSurface::Facets(_) => false,
+    })
+}
+
+/// True where supports hold each deformable part and each body, though all contacts are open: gravity then has an equilibrium.
+pub fn holds_all(model: &Model) -> bool {
+    let mut groups = Groups::joined_by(model, |part| !matches!(part, Part::Contact(_)));
+    let ground = groups.of(model.nodes.len());
+    let parts = model.parts.iter().filter(|part| part.kind().is_deformable() && part.elements() > 0);
+    let mut nodes =
+        parts.filter_map(|part| part.nodes(0).first().copied()).chain(model.bodies.iter().map(|body| body.node));
+    nodes.all(|node| groups.of(node) == ground)
+}
+
 /// The nodes that elements, joints, attachments, links and contacts join, and the ground as one more node behind the last.
 struct Groups {
     towards: Vec<usize>,
@@ -68,9 +91,14 @@ struct Groups {
 
 impl Groups {
     fn new(model: &Model) -> Groups {
+        Groups::joined_by(model, |_| true)
+    }
+
+    /// The groups by those parts alone that `joins` selects.
+    fn joined_by(model: &Model, joins: impl Fn(&Part) -> bool) -> Groups {
         let count = model.nodes.len();
         let mut groups = Groups { towards: (0..=count).collect() };
-        for part in &model.parts {
+        for part in model.parts.iter().filter(|part| joins(part)) {
             let touched = part.touched_nodes();
             let carrier = touched.first().copied();
             for element in 0..part.elements() {

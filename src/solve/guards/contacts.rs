@@ -80,6 +80,7 @@ fn note_depth(cx: &Context, warnings: &mut Warnings, state: &State) {
     {
         warnings.add(Warning::Crowded { name: name(part) });
     }
+    cx.system.note_touched(state, &mut warnings.touched);
     for (group, gap) in cx.system.last_gaps(state) {
         let Some(contact) = Contact::of(&cx.model.parts[group.part]).filter(|contact| gap < -SEEN * contact.size)
         else {

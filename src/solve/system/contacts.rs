@@ -148,6 +148,17 @@ impl System {
         self.contact_groups().map(|(group, block)| (group, block.last_gap(&state.history[group.history.clone()])))
     }
 
+    /// Adds the contacts that touch at the end of a step, or have within it, by their indices in [`Model::parts`].
+    pub fn note_touched(&self, state: &State, touched: &mut Vec<usize>) {
+        for (group, block) in self.contact_groups() {
+            let history = &state.history[group.history.clone()];
+            let meets = || block.any_memory(history, &mut |pair| pair.gap() <= 0.0 || pair.impact_speed() > 0.0);
+            if !touched.contains(&group.part) && meets() {
+                touched.push(group.part);
+            }
+        }
+    }
+
     /// The contact, by its index in [`Model::parts`], with beams that press each other side by side.
     pub fn side_by_side(&self, state: &State) -> Option<usize> {
         self.contact_where(|group, block| block.is_side_by_side(&group.configuration(&state.configuration())))
