@@ -275,8 +275,8 @@ pub mod contacts {
     pub const SEEN: f64 = 0.05;
     /// Limit for a stiffness in the deck, which may describe a soft tyre or buffer: beyond its centre a body has no side left.
     pub const MEANT: f64 = 0.5;
-    /// Number of steps for an impact where steps are not cut, as in the choice of stiffnesses.
-    pub const STEPS_OF_IMPACT: f64 = 10.0;
+    /// Number of implicit and of explicit steps for an impact where steps are not cut, as in the choice of stiffnesses.
+    pub const STEPS_OF_IMPACT: [f64; 2] = [1.0, 5.0];
     /// Limit for faces and for balls among each other: their size is the penetration between touching centres.
     pub const TO_THE_MIDDLE: f64 = 0.5;
     /// Penetration at the beginning, as a part of the size of the touching body: the value used to choose stiffnesses.

@@ -82,7 +82,7 @@ fn read(text: &str) -> (Model, Vec<String>) {
 /// The largest penetration over the size, the part of the largest energy that is made or lost, and all messages.
 fn run(text: &str, size: f64) -> (f64, f64, Vec<String>) {
     let (model, mut said) = read(text);
-    let done = run_to_the_end(&model, &mut |frame| {
+    let done = crate::support::run(&model, &mut |frame| {
         let energy = frame.derived.energy.expect("energies");
         let gap = frame.derived.contacts.iter().map(|contact| contact.gap).fold(f64::INFINITY, f64::min);
         vec![gap, energy.numerical, energy.mechanical]
@@ -126,6 +126,30 @@ fn implicit_steps_that_add_energy_are_told() {
             "{name}: {said:?}"
         );
     }
+}
+
+/// A heavy block on a mesh of a thin sheet, in steps longer than an impact of a node with the stiffness that the sheet calls for. Steps of a fifth,
+/// with the same stiffness, sink by 0.02742 and keep energy within 0.2 %; these sink by 2.1 % less and lose 2.9 % of the energy of the motion.
+#[test]
+fn a_block_falls_on_a_sheet_by_defaults() {
+    let [points, sheet] = sheet("low", "steel", 0.5, 0.0, 4e-3);
+    let sheet = sheet.replace("[4, 4]", "[8, 8]");
+    let block = "[[bodies]]\nname = \"thing\"\ncenter = [0.0, 0.0, 0.254]\nmass = 200.0\nvelocity = [0.0, 0.0, -3.0]\n\
+                 shape = { kind = \"box\", size = [0.4, 0.3, 0.5] }\n";
+    let contact = onto("{ body = \"thing\" }", "low") + "friction = 0.2\nrestitution = 0\n";
+    let text = deck(&format!("{STEEL}[points]\n{points}{sheet}{HELD}{block}{contact}"), "wilson-theta", "2.5e-4", 0.02);
+    let (model, said) = read(&text);
+    assert!(!said.iter().any(|one| one.contains("too long")), "{said:?}");
+    let at = node(&model, "thing");
+    let done = run_to_the_end(&model, &mut |frame| {
+        let energy = frame.derived.energy.expect("energies");
+        vec![frame.state.nodes[at].x.z, energy.numerical, energy.mechanical]
+    });
+    let of = |k: usize| done.rows.iter().map(move |row| row[k]);
+    let (sinks, largest) = (0.254 - of(0).fold(f64::INFINITY, f64::min), of(2).fold(0.0, f64::max));
+    let off = done.rows.last().unwrap()[1] / largest;
+    println!("sinks by {sinks}, energy {off} off, {said:?}");
+    assert!((sinks / 0.02742 - 1.0).abs() < 0.03 && off.abs() < 0.03, "{sinks} {off}");
 }
 
 /// A message of a step that lowers the stiffness names one with which nothing is lowered; none asks for less stiffness.

@@ -2,7 +2,7 @@
 
 use crate::contacts::method;
 use crate::contacts::opposite::Opposite;
-use crate::contacts::stiffness::{ChosenStiffness, Meets};
+use crate::contacts::stiffness::{Bounds, ChosenStiffness, Meets};
 use crate::data::{Body, SAFE_WHERE_STRUCK, StepLength};
 use crate::places::nodes::Topology;
 use crate::procedure::scaled_masses::{KEY, is_central};
@@ -11,6 +11,7 @@ use crate::scene::Scene;
 use base::math::Vec3;
 use base::names::{short, to_digits};
 use deck::contacts as words;
+use deck::stages::StageKind;
 use mechanics::elements::contact::restitution::{self, Loss};
 use mechanics::elements::contact::{ContactLaw, ContactPoint, ConvexBody, MOST_NODES, TouchKind};
 use std::collections::HashMap;
@@ -25,6 +26,13 @@ const RESOLUTION_OF_LIGHT: f64 = 0.2;
 const TOUCHING: f64 = 1e-12;
 /// Number of steps for an impact where steps are not cut, as in the chapter on contact stiffness.
 const STEPS: f64 = 10.0;
+/// Number of implicit steps for an impact of the lightest node on a heavy body. Nodes stop within a step, at a loss of their own energy alone; the
+/// body that strikes them is slowed down over many steps.
+const STEPS_OF_NODE: f64 = 1.0;
+/// Effective mass over that of the lightest node for a heavy body: it has a hundred times the mass of the node, whose energy is then not seen.
+const HEAVY: f64 = 10.0;
+/// Part of a step that an impact of the lightest node may last: below that forces at the ends of steps are several times too large.
+const TOO_SHORT: f64 = 0.5;
 /// Number of explicit steps for an impact of the lightest node: a sheet that lands flat with all nodes then keeps 95 % of its energy.
 const EXPLICIT_STEPS: f64 = 5.0;
 
@@ -68,6 +76,13 @@ struct Meeting {
     light: bool,
 }
 
+impl Meeting {
+    /// True where a body meets nodes so light that only the body is slowed down over several steps.
+    fn is_heavy(&self) -> bool {
+        !self.light && self.mean > HEAVY * self.least
+    }
+}
+
 impl LawReader<'_, '_> {
     /// The law, and the reason for its stiffness if the program has chosen it.
     pub fn contact_law(
@@ -85,7 +100,7 @@ impl LawReader<'_, '_> {
         let meeting = self.meeting(opposite, &points, &levers);
         let chosen = match &contact.stiffness {
             Some(_) => None,
-            None => match self.chosen_stiffness(&meeting, opposite, &points) {
+            None => match self.chosen_stiffness(contact, &meeting, opposite, &points) {
                 Ok(chosen) => Some(chosen),
                 Err(hint) => return report.error_with(owner.span, format!("{} needs `stiffness`", owner.what), hint),
             },
@@ -145,46 +160,69 @@ impl LawReader<'_, '_> {
         }
     }
 
-    /// Warns of fixed steps that are too long for an impact on the stiffness that the bodies call for, and are not cut.
+    /// Warns of fixed steps that are too long for an impact, and are not cut: of explicit ones that have lowered the stiffness, and of implicit
+    /// ones in which a node comes and goes within a part of a step.
     fn check_step(&self, owner: &Owner, meeting: &Meeting, chosen: &ChosenStiffness, report: &mut Report) {
         let StepLength::Fixed { step } = self.scene.analysis.step_length else { return };
-        let impact = PI * (meeting.least / chosen.called_for).sqrt();
-        if !self.scene.analysis.is_dynamic() || meeting.rigid || !impact.is_finite() || step * STEPS <= impact {
+        let ChosenStiffness { stiffness, called_for, .. } = *chosen;
+        let is_explicit = self.is_explicit();
+        let has_less = is_explicit && stiffness < called_for;
+        let impact = PI * (meeting.least / if has_less { called_for } else { stiffness }).sqrt();
+        let (enough, seen) = match is_explicit {
+            true => (impact / EXPLICIT_STEPS, 1.0),
+            false if meeting.is_heavy() => (impact / STEPS_OF_NODE, TOO_SHORT),
+            false => (impact / STEPS, 1.0),
+        };
+        if !self.scene.analysis.is_dynamic() || meeting.rigid || !impact.is_finite() || seen * step <= enough {
             return;
         }
-        let has_less = chosen.stiffness < chosen.called_for;
         let message = match has_less {
             true => format!(
                 "`time_step` allows {} a stiffness of {}, but its bodies call for {}: the penetration is up to {} times as deep",
                 owner.what,
-                short(chosen.stiffness),
-                short(chosen.called_for),
-                to_digits((chosen.called_for / chosen.stiffness).sqrt(), 2)
+                short(stiffness),
+                short(called_for),
+                to_digits((called_for / stiffness).sqrt(), 2)
             ),
             false => format!(
                 "the step is too long for the stiffness chosen for {}, {}: an impact of one node lasts {}",
                 owner.what,
-                short(chosen.stiffness),
+                short(stiffness),
                 short(impact)
             ),
         };
-        report.warn(owner.span, message, format!("give a `time_step` of {} or less", short(impact / STEPS)));
+        report.warn(owner.span, message, format!("give a `time_step` of {} or less", short(enough)));
     }
 
-    /// The largest stiffness with which explicit steps follow the lightest node in an impact; infinite where steps are cut or an implicit
-    /// scheme is stable at any.
-    fn bearable(&self, meeting: &Meeting) -> f64 {
-        let is_explicit = self.scene.deck.integrator.as_ref().is_some_and(is_central);
-        match self.step_ahead().filter(|_| is_explicit && !meeting.rigid && meeting.least.is_finite()) {
-            Some(step) => meeting.least * (PI / (EXPLICIT_STEPS * step)).powi(2),
-            None => f64::INFINITY,
-        }
+    /// The bounds that steps set to the stiffness; `None` where steps are cut. Implicit ones set some where a heavy body strikes a part with a
+    /// thickness, unless a static stage has the contact too, so that it keeps its stiffness.
+    fn bounds(&self, contact: &words::Contact, meeting: &Meeting, meets: &Meets) -> Option<Bounds> {
+        let moves = || {
+            self.scene.stage.as_ref().is_none_or(|stage| {
+                let mut all = stage.sequence.stages.iter().enumerate();
+                all.all(|(k, one)| one.kind != StageKind::Static || !stage.sequence.holds(k, &contact.stages))
+            })
+        };
+        let (count, steps, step, least) = match self.scene.analysis.step_length {
+            _ if meeting.rigid || !meeting.least.is_finite() => return None,
+            _ if self.is_explicit() => {
+                (EXPLICIT_STEPS, "five explicit steps", self.step_ahead()?, meets.least_under_weight(meeting.mean))
+            }
+            StepLength::Fixed { step } if self.scene.analysis.is_dynamic() && meeting.is_heavy() && moves() => {
+                (STEPS_OF_NODE, "one step", step, meets.least_in_impact(meeting.mean)?)
+            }
+            _ => return None,
+        };
+        Some(Bounds { most: meeting.least * (PI / (count * step)).powi(2), steps, least })
+    }
+
+    fn is_explicit(&self) -> bool {
+        self.scene.deck.integrator.as_ref().is_some_and(is_central)
     }
 
     /// True for central differences whose steps follow the critical one.
     fn finds_explicit_steps(&self) -> bool {
-        let is_explicit = self.scene.deck.integrator.as_ref().is_some_and(is_central);
-        is_explicit && !matches!(self.scene.analysis.step_length, StepLength::Fixed { .. })
+        self.is_explicit() && !matches!(self.scene.analysis.step_length, StepLength::Fixed { .. })
     }
 
     /// The fixed step, or the automatic one of central differences where membranes and bars limit it.
@@ -226,6 +264,7 @@ impl LawReader<'_, '_> {
     /// The stiffness by the touching bodies, or the reason for having none.
     fn chosen_stiffness(
         &self,
+        contact: &words::Contact,
         meeting: &Meeting,
         opposite: Opposite,
         points: &[ContactPoint],
@@ -239,7 +278,11 @@ impl LawReader<'_, '_> {
         if meeting.mean <= 0.0 {
             return Err("nothing that touches has a mass to choose it by");
         }
-        Ok(meets.stiffness(meeting.mean).within(self.bearable(meeting)))
+        let chosen = meets.stiffness(meeting.mean);
+        Ok(match self.bounds(contact, meeting, &meets) {
+            Some(bounds) => chosen.within(bounds),
+            None => chosen,
+        })
     }
 
     /// The mass that resists a motion of a node. Dependent nodes have the mass of their masters.

@@ -48,6 +48,14 @@ impl Opposite<'_> {
         }
     }
 
+    /// Half of the least thickness of faces; 0 of a shape.
+    pub fn half(&self) -> f64 {
+        match self {
+            Opposite::Shape(..) => 0.0,
+            Opposite::Facets(facets) => facets.iter().map(|facet| facet.half).fold(f64::INFINITY, f64::min),
+        }
+    }
+
     /// The least gap of points at t = 0; infinite without points.
     pub fn gap(&self, points: &[ContactPoint], topology: &Topology) -> f64 {
         match self {

@@ -1,5 +1,5 @@
-//! The penalty stiffness chosen by the program: by material and size of the bodies, by weight and by speed. Steps of an explicit scheme
-//! lower it to what they follow; shorter ones do not, so that results converge with the step.
+//! The penalty stiffness chosen by the program: by material and size of the bodies, by weight and by speed. Steps lower it to what they
+//! follow; shorter ones do not, so that results converge with the step.
 
 use crate::contacts::opposite::Opposite;
 use crate::data::Body;
@@ -19,14 +19,25 @@ const SEEN: f64 = 0.05;
 /// The part of the size that an impact presses in: it is over before anything has turned, and steps can follow it.
 const STRUCK: f64 = 1e-2;
 
+/// The part of the way to the middle of a sheet that a body may press in when it strikes.
+const INTO_SHEET: f64 = 0.75;
+
+/// The largest stiffness that steps follow, and the least that holds a body off.
+pub struct Bounds {
+    /// The stiffness with which an impact of the lightest node lasts a number of steps.
+    pub most: f64,
+    /// That number in words.
+    pub steps: &'static str,
+    /// The stiffness below which a body sinks in, and the reason in words.
+    pub least: (f64, String),
+}
+
 /// A penalty stiffness that the program has chosen.
 pub struct ChosenStiffness {
     /// The force of a point per depth.
     pub stiffness: f64,
     /// The stiffness that the bodies call for, which a fixed step may not bear.
     pub called_for: f64,
-    /// The stiffness with which weight presses in by a twentieth of the size, where it begins to be seen.
-    least: f64,
     /// The reason for the choice, in words.
     pub reason: String,
     /// True if only the duration of the run was available for the choice.
@@ -35,21 +46,18 @@ pub struct ChosenStiffness {
 
 impl ChosenStiffness {
     fn new(stiffness: f64, reason: String, rests_on_time: bool) -> ChosenStiffness {
-        ChosenStiffness { stiffness, called_for: stiffness, least: 0.0, reason, rests_on_time }
+        ChosenStiffness { stiffness, called_for: stiffness, reason, rests_on_time }
     }
 
-    /// The same, lowered to the largest stiffness that steps of an explicit scheme bear, but not below the one with which weight is seen.
-    pub fn within(self, bearable: f64) -> ChosenStiffness {
-        let bearable = bearable.max(self.least);
-        if self.stiffness <= bearable {
+    /// The same, lowered to the largest stiffness that steps follow, but not below the one that holds a body off.
+    pub fn within(self, bounds: Bounds) -> ChosenStiffness {
+        let Bounds { most, steps, least: (least, held) } = bounds;
+        if self.stiffness <= most.max(least) {
             return self;
         }
-        let reason = format!(
-            "an impact of the lightest node lasts five explicit steps; {} calls for {}",
-            self.reason,
-            short(self.stiffness)
-        );
-        ChosenStiffness { stiffness: bearable, reason, ..self }
+        let why = if most < least { held } else { format!("an impact of the lightest node lasts {steps}") };
+        let reason = format!("{why}; {} calls for {}", self.reason, short(self.stiffness));
+        ChosenStiffness { stiffness: most.max(least), reason, ..self }
     }
 }
 
@@ -101,8 +109,25 @@ impl Meets<'_, '_> {
         }
         let largest = choices.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
         let (stiffness, reason) = largest.unwrap_or_default();
-        let least = mass * self.gravity / (SEEN * size);
-        ChosenStiffness { least, ..ChosenStiffness::new(stiffness, reason, rests_on_time) }
+        ChosenStiffness::new(stiffness, reason, rests_on_time)
+    }
+
+    /// The stiffness with which weight presses in by a twentieth of the size, where it begins to be seen.
+    pub fn least_under_weight(&self, mass: f64) -> (f64, String) {
+        let depth = SEEN * self.size();
+        let weight = mass * self.gravity;
+        (weight / depth, format!("a weight of {} presses {} in", short(weight), short(depth)))
+    }
+
+    /// The stiffness with which a body that strikes a part with a thickness stays away from its middle; `None` without such an impact.
+    pub fn least_in_impact(&self, mass: f64) -> Option<(f64, String)> {
+        let radius = self.points.iter().map(|point| point.radius).fold(f64::INFINITY, f64::min);
+        let (depth, speed) = (INTO_SHEET * (radius + self.opposite.half()), self.speed());
+        let in_impact = mass * (speed / depth).powi(2);
+        let reason = format!("an impact at {} presses {} in", short(speed), short(depth));
+        let under_weight = self.least_under_weight(mass);
+        let least = if in_impact < under_weight.0 { under_weight } else { (in_impact, reason) };
+        (depth > 0.0 && in_impact > 0.0).then_some(least)
     }
 
     /// The stiffness of load steps: by material, or by weight and loads on the effective mass. With multipliers it does not affect the

@@ -95,17 +95,18 @@ fn note_depth(cx: &Context, warnings: &mut Warnings, state: &State) {
             let now = contact.law.as_ref().map_or(0.0, |law| law.stiffness);
             // The penetration of an impact falls with the root of the stiffness.
             let enough = now * (2.0 * gap / (limit * contact.size)).powi(2);
-            let step = contact.law.as_ref().map_or(0.0, |law| step_for(law, enough, &cx.model.analysis.step_length));
+            let step = contact.law.as_ref().map_or(0.0, |law| step_for(law, enough, cx.model));
             warnings.deepen(&contact.name, (-gap, contact.size), [now, enough, step]);
         }
     }
 }
 
 /// The fixed step that resolves an impact with another stiffness; 0 where steps are cut, are automatic, or are short enough.
-fn step_for(law: &ContactLaw, stiffness: f64, step_length: &StepLength) -> f64 {
-    let StepLength::Fixed { step } = *step_length else { return 0.0 };
+fn step_for(law: &ContactLaw, stiffness: f64, model: &Model) -> f64 {
+    let StepLength::Fixed { step } = model.analysis.step_length else { return 0.0 };
+    let steps = STEPS_OF_IMPACT[usize::from(model.solution.scheme.is_explicit())];
     // Half of the longest duration, which goes with the root of the stiffness.
-    let needed = 0.5 * law.duration * (law.stiffness / stiffness).sqrt() / STEPS_OF_IMPACT;
+    let needed = 0.5 * law.duration * (law.stiffness / stiffness).sqrt() / steps;
     if law.resolution.is_infinite() && needed < step { needed } else { 0.0 }
 }
 
