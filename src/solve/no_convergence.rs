@@ -46,7 +46,7 @@ impl NoConvergence {
     fn cause(&self, open: Option<&str>, worst: Option<(&str, &str, f64)>) -> String {
         if let Some(name) = open {
             return format!(
-                ": {name} has opened or gone slack, and perhaps nothing else held the structure. Add a support or a soft spring there"
+                ": {name} is open or slack, and perhaps nothing else holds the structure. Add a support or a soft spring there"
             );
         }
         if let Some(enough) = self.enough {

@@ -5,6 +5,9 @@ use base::names::short;
 use deck::contacts as words;
 use deck::words::NumberOrTable;
 
+/// A coefficient of friction beyond those of rubber on dry concrete and of clean metals in air.
+const LARGE: f64 = 2.0;
+
 /// Checks the coefficients of friction; two of them need `has_inertia`, an analysis that knows slip speeds.
 pub fn check<'d>(owner: &Owner<'d>, contact: &'d words::Contact, has_inertia: bool, report: &mut Report<'d>) {
     let Some(friction) = &contact.friction else { return };
@@ -35,5 +38,18 @@ pub fn check<'d>(owner: &Owner<'d>, contact: &'d words::Contact, has_inertia: bo
             format!("{} has two coefficients of friction, and a static analysis has no slip speed", owner.what);
         let hint = format!("give one coefficient, {} while nothing slips", short(mu));
         report.error_with::<()>(&friction.span, message, hint);
+    }
+}
+
+/// Warns of a coefficient of friction that hardly any pair of materials has.
+pub fn check_size<'d>(contact: &'d words::Contact, report: &mut Report<'d>) {
+    let sticking = contact.coefficients().sticking;
+    if let Some(friction) = contact.friction.as_ref().filter(|_| sticking > LARGE) {
+        let message = format!("a `friction` of {} is larger than that of most pairs of materials", short(sticking));
+        report.warn(
+            &friction.span,
+            message,
+            "give a coefficient such as 0.2, or join what must not slip by `[[ties]]`",
+        );
     }
 }

@@ -265,7 +265,9 @@ fn is_zone<'d>(
             report.error::<()>(&damping.span, format!("{} takes `restitution` or `damping`, not both", owner.what));
         }
     }
-    report.is_clean_since(mark).then_some(is_zone)
+    let is_clean = report.is_clean_since(mark);
+    friction::check_size(contact, report);
+    is_clean.then_some(is_zone)
 }
 
 /// Warns of points that begin deeper inside a surface than weight on one point holds them, `at_rest`: they are pushed

@@ -21,8 +21,10 @@ use crate::strategy::extrapolation::StressExtrapolation;
 use crate::strategy::linearized_prediction::LinearizedPrediction;
 use crate::strategy::refresh::{Advice, Refresh};
 use crate::strategy::relaxation::Relaxation;
+use crate::system::{law_of, open_gap};
 use crate::tolerances::iteration::{BALANCED, LONGER, NEAR_LIMIT};
 use crate::workspace::Workspace;
+use base::names::short;
 use base::snapshot::keep;
 
 /// Newton's method, modified where reusing a matrix pays, with its data besides the workspace. Parts that a model does not need are `None`.
@@ -380,8 +382,20 @@ impl Newton {
             least_step: (0.5 * (report.to - step.state.time) < least).then_some(least),
             enough: progress.enough(),
         };
-        let (open, lacks_slip) = (self.matrix.opened_part(), cx.system.rubs() && ws.matrix.solver.is_symmetric());
+        let never_closed = || contact_never_closed(cx, step).filter(|_| !cause.at_limit);
+        let open = self.matrix.opened_part().or_else(never_closed);
+        let lacks_slip = cx.system.rubs() && ws.matrix.solver.is_symmetric();
         let largest = residual::largest(cx, &ws.forces);
         Failure::NotConverged { iterations: report.iterations, cause, open, lacks_slip, largest }
     }
+}
+
+/// A contact, in quotes and with its gap, that is open as a load step begins, where supports alone do not hold all parts.
+fn contact_never_closed(cx: &Context, step: &Step) -> Option<String> {
+    let needs_contact = !cx.is_dynamic() && !model::holds_all(cx.model);
+    cx.system.groups.iter().filter(|_| needs_contact).find_map(|group| {
+        let (name, _) = law_of(cx.model, group)?;
+        let gap = open_gap(group, &step.state.history[group.history.clone()])?;
+        Some(format!("contact `{name}` (its gap is {})", short(gap)))
+    })
 }
