@@ -361,7 +361,11 @@ impl StageRunner<'_> {
     ) -> io::Result<Next> {
         let Some(state) = state else { return Ok(Next::End(outcome)) };
         while let (Outcome::Done, Some(planned)) = (&outcome, self.loaded.later.get(ends.len())) {
-            ends.push(state.time);
+            let (begin, end) = (before.analysis.begin, state.time);
+            if end < begin {
+                return Ok(Next::End(Outcome::Failed { failure: Failure::TimeWentBack { begin, end }, time: end }));
+            }
+            ends.push(end);
             // Where a stage has ended at another time, later ones begin then, and the amplitudes of its loads end there.
             let mut model = match self.went_as_planned(ends) {
                 true => planned.clone(),

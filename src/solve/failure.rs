@@ -194,6 +194,13 @@ pub enum Failure {
         /// The force of the drive over the largest other force.
         times: f64,
     },
+    /// A stage by displacement control has led its loads below zero, and another stage is to follow.
+    TimeWentBack {
+        /// The time at which the stage began.
+        begin: f64,
+        /// The time at which it ended.
+        end: f64,
+    },
     /// There are no modes about the state.
     Modes(ModesFault),
     /// The motion left the range of numbers.
@@ -234,6 +241,7 @@ keep_either!(Failure {
     25 => GivenRotationLost { label },
     26 => PathCreeps { steps, from, to },
     27 => OutOfReach { name, position, times },
+    28 => TimeWentBack { begin, end },
 });
 
 /// A residual force, or a gap, with its name.
@@ -448,7 +456,7 @@ impl Failure {
             Failure::ConstraintsViolated { inertias, .. } => constraints_violated(inertias),
             Failure::OutOfReach { name, position, times } => format!(
                 "`{name}` prescribes a `position` beyond the reach of the linkage: near {} its force is {} times the largest other force, for the links \
-                 come to lie in one line. Prescribe less than {}, or move the ends of `{name}`",
+                 come to lie in one line. Stay on this side of {}, or move the ends of `{name}`",
                 to_digits(*position, 4),
                 to_digits(*times, 2),
                 to_digits(*position, 4)
@@ -459,6 +467,7 @@ impl Failure {
             | Failure::GivenRotationLost { .. } => self.message_of_rotation(),
             Failure::NoEquilibriumOnArc { .. }
             | Failure::NoLoadIncrement { .. }
+            | Failure::TimeWentBack { .. }
             | Failure::TooManySteps { .. }
             | Failure::PathCreeps { .. }
             | Failure::LoadStepTurns { .. }
@@ -514,6 +523,12 @@ impl Failure {
                 "no load or prescribed motion changes at t = {}, so the path of `control` = \"arc-length\" has no direction. Give a load an \
                  `amplitude` that changes there, or remove `control`",
                 short(*time)
+            ),
+            Failure::TimeWentBack { begin, end } => format!(
+                "the loads of this stage act against its `stop`, so that the time, which is their factor, went back from {} to {}: no stage can follow. \
+                 Give these loads the other sign",
+                short(*begin),
+                short(*end)
             ),
             Failure::LoadStepTurns { label, angle } => format!(
                 "a load step rotates `{label}` by {angle:.1} radians, and shorter steps do not help: the equilibrium jumps, by a mechanism or \

@@ -31,6 +31,10 @@ fn farthest_drive(cx: &Context, ws: &mut Workspace, state: &State) -> Option<Fai
         return None;
     }
     let others = forces_besides_joints(cx, ws, state);
+    // Without other forces, all forces of joints are rounding.
+    if others == 0.0 {
+        return None;
+    }
     let mut room = [Vec6::zeros(); MOST_ENDS];
     let mut worst: Option<(usize, f64)> = None;
     for (number, (joint, first)) in cx.system.numbered().enumerate().filter(|(number, _)| is_prescribed(*number)) {

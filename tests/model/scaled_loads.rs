@@ -122,16 +122,22 @@ fn a_displacement_against_the_loads_turns_them_round() {
         run(folder.path(), &column(&(weight.clone() + &stage("push", &back)), &(WEIGHT.to_owned() + &push("push"))));
     assert!((against + there - 2.0).abs() < 1e-7 * there, "{against} {there}");
 
-    // There and back: what remains of the first push is part of the sum, and rest changes nothing.
+    // There and back, and rest: loads of the second push point back, for the time runs on from stage to stage.
     let both = weight.clone()
         + &stage("push", STOP)
         + &stage("back", &back)
-        + &stage("rest", "duration = 1.0\ntime_step = 0.5\n");
+        + &stage("rest", "duration = 0.1\ntime_step = 0.05\n");
     let pushes = format!("{PUSH}stages = [\"push\", \"back\", \"rest\"]\n");
-    let last = format!("{PUSH}stages = [\"back\", \"rest\"]\n");
+    let last =
+        |sign: &str| format!("{}stages = [\"back\", \"rest\"]\n", PUSH.replace("[20e3", &format!("[{sign}20e3")));
     let expect = "[[expect]]\nat = \"b\"\nquantity = \"ux\"\nstage = \"rest\"\nvalue = -0.05\ntolerance = 1e-6\n";
-    let (_, end) = run(folder.path(), &column(&both, &[WEIGHT, &pushes, &last, expect].concat()));
-    assert!((end - (1.0 - (there - 1.0) + 1.0)).abs() < 1e-6, "{end} {there}");
+    let (_, end) = run(folder.path(), &column(&both, &[WEIGHT, &pushes, &last("-"), expect].concat()));
+    assert!((end - (there + 2.0 * (there - 1.0) + 0.1)).abs() < 1e-6, "{end} {there}");
+    std::fs::write(folder.path().join("deck.toml"), column(&both, &[WEIGHT, &pushes, &last("")].concat())).unwrap();
+    let mut command = Command::cargo_bin("rdsolve").unwrap();
+    let done = command.current_dir(folder.path()).args(["deck.toml", "--overwrite"]).assert().code(4);
+    let said = String::from_utf8(done.get_output().stderr.clone()).unwrap();
+    assert!(said.contains("Give these loads the other sign"), "{said}");
 
     // Nothing grows where all loads have grown before.
     std::fs::write(folder.path().join("deck.toml"), column(&(weight + &stage("push", STOP)), PUSH)).unwrap();

@@ -85,6 +85,8 @@ fn failures() -> Vec<Failure> {
         Failure::NotFinite { largest: largest() },
         Failure::Stopped,
         Failure::PathCreeps { steps: 200, from: 0.24581, to: 0.24612 },
+        Failure::TimeWentBack { begin: 1.39, end: 0.61 },
+        Failure::OutOfReach { name: "cylinder".to_owned(), position: 1.0583, times: 1234.5 },
     ]
 }
 
@@ -117,14 +119,16 @@ fn kind(failure: &Failure) -> usize {
         Failure::NotFinite { .. } => 23,
         Failure::Stopped => 24,
         Failure::PathCreeps { .. } => 25,
-        Failure::Modes(_) => 26,
+        Failure::OutOfReach { .. } => 26,
+        Failure::TimeWentBack { .. } => 27,
+        Failure::Modes(_) => 28,
     }
 }
 
 #[test]
 fn every_failure_says_what_it_means_and_what_to_change() {
     let failures = failures();
-    for number in 0..=25 {
+    for number in 0..=27 {
         assert!(failures.iter().any(|failure| kind(failure) == number), "no example of kind {number}");
     }
     let texts: Vec<String> = failures.iter().map(ToString::to_string).collect();

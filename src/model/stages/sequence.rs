@@ -215,10 +215,8 @@ impl<'d> StageSequence<'d> {
             if end == stage.begin + stage.duration {
                 return Amplitude::Ramp { start: stage.begin, end };
             }
-            // A stage whose loads have fallen below zero has ended before it began.
-            let reached = [end, (end - stage.begin) / stage.duration];
-            let begin = Some([stage.begin, 0.0]).filter(|point| point[0] < reached[0]);
-            Amplitude::Table(StraightLines::new(begin.into_iter().chain([reached]).collect()))
+            let reached = (end - stage.begin) / stage.duration;
+            Amplitude::Table(StraightLines::new(vec![[stage.begin, 0.0], [end, reached]]))
         })
     }
 
