@@ -183,8 +183,8 @@ pub fn compare(folders: [&Path; 2], settings: &Settings) -> io::Result<Compariso
         });
     }
 
-    let move_displacements = ends.iter().flatten().filter(|end| end.by_displacement).count() == 2;
-    let by_step = move_displacements || turns(folders[0])? || turns(folders[1])?;
+    let moved = ends.each_ref().map(|end| end.as_ref().and_then(|end| end.moved_steps));
+    let by_step = moved[0].is_some() && moved[0] == moved[1] || turns(folders[0])? || turns(folders[1])?;
     let mut compared = Vec::new();
     let mut only: [Vec<String>; 2] = Default::default();
     let chosen = |file: &str, column: &str| settings.takes(file, column);
@@ -327,8 +327,8 @@ fn tables(folder: &Path) -> io::Result<BTreeSet<String>> {
 /// The end of a run by its result.json.
 struct End {
     status: String,
-    /// True where steps moved a displacement, and times are loads.
-    by_displacement: bool,
+    /// The number of steps where these moved a displacement, and times are loads.
+    moved_steps: Option<u64>,
 }
 
 /// The end of a run; `None` where it never came to write one.
@@ -339,9 +339,9 @@ fn end_of(folder: &Path) -> io::Result<Option<End>> {
         read => read.map_err(|e| at(&path, e))?,
     };
     let result: serde_json::Value = serde_json::from_slice(&text).map_err(|e| at(&path, e.into()))?;
-    let by_displacement = result["by_displacement"] == true;
+    let moved_steps = result["counts"]["steps"].as_u64().filter(|_| result["by_displacement"] == true);
     match result["status"].as_str() {
-        Some(status) => Ok(Some(End { status: status.into(), by_displacement })),
+        Some(status) => Ok(Some(End { status: status.into(), moved_steps })),
         None => Err(at(&path, io::Error::new(io::ErrorKind::InvalidData, "no status"))),
     }
 }
