@@ -13,6 +13,7 @@ use crate::system::{Forces, Loading, Prescribed};
 use base::snapshot::{Keep, Snapshot, keep};
 use linear::{Solver, TooLarge};
 use mechanics::state::{Node, State};
+use model::Contact;
 
 /// The data of the current step.
 pub struct Workspace {
@@ -115,7 +116,7 @@ impl Workspace {
     /// There is no memory for the solver.
     pub fn new(cx: &Context) -> Result<Workspace, TooLarge> {
         let (solver, assembly) = cx.plan.build(cx.system)?;
-        let warnings = warnings_of(&solver);
+        let warnings = warnings_of(cx, &solver);
         Ok(Workspace {
             trial: TrialMotion::new(cx),
             end: TrialMotion::new(cx),
@@ -152,7 +153,7 @@ impl Workspace {
         (*loads, *prescribed) = (AtTimes::default(), PrescribedStep::default());
         (*reach, *load_steps) = (cx.length, LoadSteps::default());
         (self.rotation_drift, self.joint_violation) = (0.0, 0.0);
-        self.warnings = warnings_of(&self.matrix.solver);
+        self.warnings = warnings_of(cx, &self.matrix.solver);
         self.slips = SlipWatch::new(cx);
         self.response = ResponseSoFar::default();
     }
@@ -184,9 +185,10 @@ impl Workspace {
     }
 }
 
-/// The remarks that a run begins with.
-fn warnings_of(solver: &Solver) -> Warnings {
+/// The remarks that a run begins with, and room for all contacts that touch.
+fn warnings_of(cx: &Context, solver: &Solver) -> Warnings {
     let mut warnings = Warnings::default();
+    warnings.touched.reserve(cx.model.each::<Contact>().count());
     if solver.stats().in_file {
         warnings.remark(Remark::FactorInFile(solver.scratch()));
     }

@@ -11,7 +11,6 @@ use crate::scene::Scene;
 use base::math::Vec3;
 use base::names::{short, to_digits};
 use deck::contacts as words;
-use deck::stages::StageKind;
 use mechanics::elements::contact::restitution::{self, Loss};
 use mechanics::elements::contact::{ContactLaw, ContactPoint, ConvexBody, MOST_NODES, TouchKind};
 use std::collections::HashMap;
@@ -72,6 +71,8 @@ struct Meeting {
     least: f64,
     /// True where only bodies and point masses are in contact.
     rigid: bool,
+    /// True where a free body is far heavier than a node of a deformable part that it may meet.
+    heavy: bool,
     /// True where a free body is lighter than a node of a deformable part that it may meet. The impact is then faster than any mode of the part.
     light: bool,
 }
@@ -79,7 +80,7 @@ struct Meeting {
 impl Meeting {
     /// True where a body meets nodes so light that only the body is slowed down over several steps.
     fn is_heavy(&self) -> bool {
-        !self.light && self.mean > HEAVY * self.least
+        !self.light && self.heavy
     }
 }
 
@@ -195,20 +196,16 @@ impl LawReader<'_, '_> {
     }
 
     /// The bounds that steps set to the stiffness; `None` where steps are cut. Implicit ones set some where a heavy body strikes a part with a
-    /// thickness, unless a static stage has the contact too, so that it keeps its stiffness.
-    fn bounds(&self, contact: &words::Contact, meeting: &Meeting, meets: &Meets) -> Option<Bounds> {
-        let moves = || {
-            self.scene.stage.as_ref().is_none_or(|stage| {
-                let mut all = stage.sequence.stages.iter().enumerate();
-                all.all(|(k, one)| one.kind != StageKind::Static || !stage.sequence.holds(k, &contact.stages))
-            })
-        };
+    /// thickness, in decks without stages: a contact keeps its stiffness through all of them.
+    fn bounds(&self, meeting: &Meeting, meets: &Meets) -> Option<Bounds> {
         let (count, steps, step, least) = match self.scene.analysis.step_length {
             _ if meeting.rigid || !meeting.least.is_finite() => return None,
             _ if self.is_explicit() => {
                 (EXPLICIT_STEPS, "five explicit steps", self.step_ahead()?, meets.least_under_weight(meeting.mean))
             }
-            StepLength::Fixed { step } if self.scene.analysis.is_dynamic() && meeting.is_heavy() && moves() => {
+            StepLength::Fixed { step }
+                if self.scene.analysis.is_dynamic() && self.scene.stage.is_none() && meeting.is_heavy() =>
+            {
                 (STEPS_OF_NODE, "one step", step, meets.least_in_impact(meeting.mean)?)
             }
             _ => return None,
@@ -279,7 +276,7 @@ impl LawReader<'_, '_> {
             return Err("nothing that touches has a mass to choose it by");
         }
         let chosen = meets.stiffness(meeting.mean);
-        Ok(match self.bounds(contact, meeting, &meets) {
+        Ok(match self.bounds(meeting, &meets) {
             Some(bounds) => chosen.within(bounds),
             None => chosen,
         })
@@ -295,7 +292,7 @@ impl LawReader<'_, '_> {
     fn meeting(&self, opposite: Opposite, points: &[ContactPoint], levers: &[f64]) -> Meeting {
         let Other { mass: other, least: least_other, free: free_other, rigid: other_is_rigid } = self.other(opposite);
         let (mut mean, mut least, mut rigid) = (0.0f64, f64::INFINITY, other_is_rigid);
-        let mut light = false;
+        let (mut light, mut heavy) = (false, false);
         for (point, &lever) in points.iter().zip(levers) {
             let own: f64 = point.nodes().iter().zip(point.weights).map(|(&node, w)| w.abs() * self.mass(node)).sum();
             let reduced = 1.0 / (1.0 / own + 1.0 / other);
@@ -308,11 +305,16 @@ impl LawReader<'_, '_> {
             rigid &= is_body || point.nodes().iter().all(|&node| self.is_weighted(self.topology.root(node)));
             // In an impact of a body on a deformable part, the effective mass exceeds that of the node.
             let taken = if is_body == other_is_rigid || !other.is_finite() { reduced } else { (own * other).sqrt() };
+            // Alike masses on the ground differ by the mesh alone.
+            heavy |= is_body != other_is_rigid
+                && taken.is_finite()
+                && other.is_finite()
+                && taken > HEAVY * own.min(least_other);
             mean = mean.max(if taken.is_finite() { taken } else { 0.0 });
             let reduced = 1.0 / (1.0 / own + 1.0 / least_other);
             least = if reduced > 0.0 { least.min(1.0 / (1.0 / reduced + self.ease(point, lever))) } else { least };
         }
-        Meeting { mean, least, rigid, light }
+        Meeting { mean, least, rigid, light, heavy }
     }
 
     /// The mass opposite to the points.

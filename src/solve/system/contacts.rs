@@ -152,7 +152,10 @@ impl System {
     pub fn note_touched(&self, state: &State, touched: &mut Vec<usize>) {
         for (group, block) in self.contact_groups() {
             let history = &state.history[group.history.clone()];
-            let meets = || block.any_memory(history, &mut |pair| pair.gap() <= 0.0 || pair.impact_speed() > 0.0);
+            let meets = || {
+                block.pushes(history)
+                    || block.any_memory(history, &mut |pair| pair.gap() <= 0.0 || pair.impact_speed() > 0.0)
+            };
             if !touched.contains(&group.part) && meets() {
                 touched.push(group.part);
             }

@@ -45,7 +45,8 @@ pub(super) fn update_near(
 ) -> Dissipation {
     let (mut new, speed) = (PairMemoryMut(numbers), speed(at));
     // The last state before a landing counts. Where a state is a part of the way, states before leave traces in it.
-    let is_far = law.dynamic && part == 1.0 && now.dt > 0.0 && least.gap > STEPS_AHEAD * speed * now.dt;
+    let ahead = STEPS_AHEAD * speed * now.dt;
+    let is_far = law.dynamic && part == 1.0 && ahead > 0.0 && least.gap > ahead;
     let (gap, rate) = match acting {
         Some(acting) => (acting.inset - acting.depth.D, acting.rate),
         None => approach(at, least, is_far),
