@@ -60,6 +60,8 @@ impl<'a> Context<'a> {
         let restraints = &model.constraints.restraints;
         let length = extent(model);
         let farthest = model.nodes.iter().map(|node| node.x.amax()).fold(0.0, f64::max);
+        // Forces that stand against each other leave a rest, which alone moves a scene at rest.
+        let stands = model.loading.gravity != Vec3::zeros() || model.analysis.stage.is_some();
         let shares_nodes = plan.threads > 1 && plan.has_many_nodes();
         Context {
             model,
@@ -72,7 +74,7 @@ impl<'a> Context<'a> {
             numbers: model.number_nodes().collect(),
             algorithmic_acceleration: if dynamic { model.solution.scheme.algorithmic_acceleration() } else { None },
             length,
-            rounding: (FORCES * length).max(POSITIONS * farthest),
+            rounding: if stands { FORCES * length } else { 0.0 }.max(POSITIONS * farthest),
             origin: model.nodes.first().map_or(Vec3::zeros(), |node| node.x),
             wants_forces,
             wants_energy,

@@ -74,6 +74,7 @@ fn may_grow(scene: &Scene) -> bool {
         || environment
         || deck.supports.iter().any(|support| support.motion.is_some())
         || deck.joints.iter().any(|joint| joint.motion.is_some() || joint.effort.is_some())
+        || deck.links.iter().any(|link| link.pretension.is_some())
         || !deck.actuators.is_empty()
 }
 

@@ -92,6 +92,9 @@ impl<'d> BareRecords<'d> {
     }
 }
 
+/// Scales over the factor of conversion that were most likely meant to convert.
+const AGAIN: std::ops::Range<f64> = 0.3..1.6;
+
 /// Warns of a converted record whose scale makes it stronger than any that was measured: the scale may have been meant to convert it. True if it does.
 pub fn is_too_strong(
     deck: &Deck,
@@ -103,7 +106,9 @@ pub fn is_too_strong(
     let scale = scales.iter().flatten().product::<f64>();
     let Some(unit) = acceleration(deck).filter(|_| used.quantity == MotionQuantity::Acceleration) else { return false };
     let peak = largest(record) * (factor * scale * unit / G).abs();
-    if peak <= PEAKS[2] || scales.iter().all(Option::is_none) {
+    // The conversion times a usual factor on a record, such as 2/3 of g for a vertical one.
+    let converts_again = factor != 1.0 && AGAIN.contains(&(scale / factor).abs());
+    if scales.iter().all(Option::is_none) || peak <= PEAKS[2] && !converts_again {
         return false;
     }
     let file = words.file.as_ref().map_or("", |file| file.value.as_str());
