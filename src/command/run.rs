@@ -70,9 +70,12 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     let (system, plan, warnings) = plan(&mut loaded, threads)?;
     if !args.quiet {
         show(&warnings, &loaded.source);
-        alternative(&loaded.model, threads).iter().for_each(|note| say(&format!("note: {note}")));
     }
     loaded.warnings.extend(warnings);
+    let plan_s = planning.elapsed().as_secs_f64();
+    if !args.quiet && !args.resume {
+        alternative(&loaded.model, threads).iter().for_each(|note| say(&format!("note: {note}")));
+    }
     let stop = Arc::new(AtomicBool::new(false));
     let forecast = Forecast::begin();
     let mut run = Run::new(&loaded.model, &system, &plan, wanted(&loaded.model), &stop).map_err(too_large)?;
@@ -94,7 +97,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
         began,
         plan: Some(explained(&loaded, &plan, &system)),
         sizes: sizes(&loaded, plan.dofs.unknowns(), system.multipliers()),
-        timings: Timings { read_s, pilots_s, plan_s: planning.elapsed().as_secs_f64(), ..Timings::default() },
+        timings: Timings { read_s, pilots_s, plan_s, ..Timings::default() },
     };
     let computed = stop_on_signals(&stop).and_then(|()| {
         drop(reading);

@@ -43,8 +43,8 @@ pub struct Amplitude {
     pub shift: Maybe<f64>,
     /// Value before the first time. Default: the first value, with a warning if it is not zero and the run starts earlier. (table)
     pub before: Maybe<Beyond>,
-    /// Value after the last time. Default: the last value, with a warning if it is not zero and the run continues; zero for a file of
-    /// `base_acceleration`. (table)
+    /// Value after the last time. Default: the last value, with a warning if it is not zero and the run continues; a file that moves the ground
+    /// alone falls to zero over one more interval. (table)
     pub after: Maybe<Beyond>,
     /// Name of the stage from whose start the times count. Default: they are times of the run.
     pub stage: Maybe<String>,

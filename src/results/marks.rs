@@ -2,7 +2,7 @@
 
 use base::math::Vec3;
 use mechanics::sections::SectionOutline;
-use model::{JointOrigin, Model, Part};
+use model::{FieldFormat, JointOrigin, Model, Part};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
@@ -21,7 +21,7 @@ pub struct SceneMarks {
     pub loads: Vec<([f64; 3], [f64; 6])>,
     /// Places of joints.
     pub joints: Vec<[f64; 3]>,
-    /// Named points that follow each other along beams and bars, for pages of runs without files of fields.
+    /// Named points that follow each other along beams and bars, for pages of runs without VTU files.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub members: Vec<[String; 2]>,
     /// Sections of beams by their names: the least and the largest y and z from the axis, or a radius.
@@ -79,7 +79,7 @@ impl SceneMarks {
                 marks.beams.extend(size.map(|size| (part.name().to_owned(), size)));
             }
         }
-        let without_fields = models.iter().filter(|model| model.output.fields.is_none());
+        let without_fields = models.iter().filter(|model| !has_grids(model));
         marks.members = without_fields.flat_map(|model| members(model)).collect::<BTreeSet<_>>().into_iter().collect();
         marks.members.truncate(MOST);
         let all = models.first().map_or(0, |model| model.nodes.len());
@@ -94,6 +94,11 @@ impl SceneMarks {
         joints.truncate(MOST);
         SceneMarks { joints, ..marks }
     }
+}
+
+/// True for a run with VTU files.
+fn has_grids(model: &Model) -> bool {
+    model.output.fields.as_ref().is_some_and(|files| files.format == FieldFormat::Vtu)
 }
 
 /// The labels of named nodes that follow each other along beams and bars.

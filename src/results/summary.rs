@@ -97,7 +97,7 @@ impl ResultSummary {
         if result.is_null() && !TABLES.iter().any(|table| is_there(table.file)) {
             return Err(at(folder, io::Error::other("no results: neither a table nor result.json")));
         }
-        if let Some(stage) = stage.filter(|_| columns.is_empty()) {
+        if let Some(stage) = stage.filter(|_| columns.is_empty() && only.is_empty()) {
             return Err(at(folder, io::Error::other(format!("no row is of a stage `{stage}`"))));
         }
         let list = |key: &str| result[key].as_array().into_iter().flatten();

@@ -2,8 +2,11 @@
 
 use rdsolve::math::Vec3;
 use rdsolve::solve::Kept;
-use rdsolve::solve::inner::COMPARISONS;
+use rdsolve::solve::inner::{COMPARISONS, ModelSize};
 use rdsolve::solve::{StepError, Warning};
+
+/// Motions of these tests are far above rounding.
+const SIZE: ModelSize = ModelSize { length: 1.0, rounding: 0.0 };
 
 /// A run of so many equal steps in which one node moves by 1 and the position of another is out by `error`.
 fn kept(steps: usize, error: f64, met_events: bool) -> Kept {
@@ -25,7 +28,7 @@ fn judged(differences: [f64; 3], met_events: bool) -> StepError {
     for (k, difference) in differences.into_iter().enumerate() {
         at += difference;
         let run = kept(20 << k, at, met_events);
-        error.judge(&run, &other, 1.0);
+        error.judge(&run, &other, SIZE);
         other = run;
     }
     error
@@ -59,8 +62,9 @@ fn runs_that_come_no_nearer_have_no_estimate() {
 #[test]
 fn a_pilot_run_with_nothing_in_common_judges_no_run() {
     let error = StepError::new(1e-3);
-    let judges =
-        |steps: usize, difference: f64| error.is_judged_by(&kept(steps, 0.0, false), &kept(10, difference, false), 1.0);
+    let judges = |steps: usize, difference: f64| {
+        error.is_judged_by(&kept(steps, 0.0, false), &kept(10, difference, false), SIZE)
+    };
     assert!(judges(100, 5e-2) && !judges(100, 6e-2));
     assert!(judges(1000, 0.29) && !judges(1000, 0.35));
 }
@@ -86,7 +90,7 @@ fn a_ratio_counts_by_the_worst_end_of_a_run() {
     // Steps of the second half that are as long as those of the pilot run, or longer, tell no error, however short those of the first half are.
     assert!(pieces(200).is_told_by(&pilot) && !pieces(101).is_told_by(&pilot) && !pieces(50).is_told_by(&pilot));
     let mut error = StepError::new(1e-3);
-    assert!(error.judge(&pieces(50), &pilot, 1.0).is_some() && error.estimate.is_none(), "{error:?}");
+    assert!(error.judge(&pieces(50), &pilot, SIZE).is_some() && error.estimate.is_none(), "{error:?}");
 }
 
 /// Errors of the first half grow longer: they count three times as much as those of the second half. One interval has steps of both halves, which

@@ -500,7 +500,7 @@ fn a_sweep_reads_tables_with_stages() {
     let read_in = |stage: Option<&str>, at: &str, quantity: &str, when| {
         let stage = stage.map(str::to_owned);
         let wanted = Collected { name: "x".to_owned(), at: at.to_owned(), quantity: quantity.to_owned(), stage, when };
-        collect(folder.path(), &[wanted]).unwrap()[0]
+        collect(folder.path(), &[wanted], &[]).unwrap()[0]
     };
     let read = |at: &str, quantity: &str, when| read_in(None, at, quantity, when);
     assert_eq!(read("energy", "kinetic", CollectedWhen::Max), Some(5.0));

@@ -89,7 +89,7 @@ impl Contents {
 }
 
 /// The note on a scene from tables alone.
-const WITHOUT_FIELDS: &str = "members are straight between their points, and shells and bodies are not drawn. The deck has no files of fields: \
+const WITHOUT_FIELDS: &str = "members are straight between their points, and shells and bodies are not drawn. There are no VTU files: \
      `fields = { format = \"vtu\" }` in [output] shows them";
 
 /// The scene of the modes, else of the fields, else of the points; a note names omitted times.
