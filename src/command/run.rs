@@ -64,18 +64,13 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     let (mut loaded, chosen, pilots_s) = settled(loaded, threads, args.quiet)?;
     let checkpoint = checkpoint.map(|checkpoint| resume(&folder, checkpoint, (&origin, &loaded.hash))).transpose()?;
     let planning = Instant::now();
-    if !args.quiet {
-        show(&loaded.warnings, &loaded.source);
-    }
+    let show = |warnings: &[Diagnostic], source: &Source| show(if args.quiet { &[] } else { warnings }, source);
+    show(&loaded.warnings, &loaded.source);
     let (system, plan, warnings) = plan(&mut loaded, threads)?;
-    if !args.quiet {
-        show(&warnings, &loaded.source);
-    }
+    show(&warnings, &loaded.source);
     loaded.warnings.extend(warnings);
     let plan_s = planning.elapsed().as_secs_f64();
-    if !args.quiet && !args.resume {
-        alternative(&loaded.model, threads).iter().for_each(|note| say(&format!("note: {note}")));
-    }
+    offer_alternative(args, &loaded.model, threads);
     let stop = Arc::new(AtomicBool::new(false));
     let forecast = Forecast::begin();
     let mut run = Run::new(&loaded.model, &system, &plan, wanted(&loaded.model), &stop).map_err(too_large)?;
@@ -109,6 +104,13 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
         Exit::InputOutput
     })?;
     job.conclude(ended)
+}
+
+/// Says which scheme often takes less time.
+fn offer_alternative(args: &RunArgs, model: &Model, threads: usize) {
+    if !args.quiet && !args.resume {
+        alternative(model, threads).iter().for_each(|note| say(&format!("note: {note}")));
+    }
 }
 
 /// A variant of a deck that is one case of a sweep.
@@ -261,6 +263,15 @@ fn use_threads(asked: Option<u8>) -> usize {
     threads
 }
 
+/// The last line of the log.
+fn last_line(end: &End) -> String {
+    match (end.status, end.reason.as_str()) {
+        (Status::Done, "") => "done".to_owned(),
+        (Status::Done, reason) => format!("done: {reason}"),
+        _ => end.sentence(),
+    }
+}
+
 /// True where steps move a displacement.
 fn moves_displacement(model: &Model) -> bool {
     matches!(&model.analysis.step_length, StepLength::ArcLength(path) if path.increment.is_some())
@@ -354,9 +365,7 @@ impl Job<'_> {
         watchers.log.sum_up()?;
         let mesh = self.mesh_error_of(&outcome, run, &mut watchers);
 
-        if matches!(outcome, Outcome::Done) {
-            told.tell_untouched();
-        }
+        told.tell_untouched(&outcome);
         told.remarks.iter().try_for_each(|remark| watchers.log.say(&format!("note: {remark}")))?;
         let warnings = std::mem::take(&mut told.warnings);
         let steps = told.step_error.map(step_error);
@@ -377,11 +386,7 @@ impl Job<'_> {
         };
         error_bars_in_words(&errors.error_bars).iter().try_for_each(|line| watchers.log.say(line))?;
         let end = end(outcome, told.short.take(), &expectations)?;
-        watchers.log.say(&match (end.status, end.reason.as_str()) {
-            (Status::Done, "") => "done".to_owned(),
-            (Status::Done, reason) => format!("done: {reason}"),
-            _ => end.sentence(),
-        })?;
+        watchers.log.say(&last_line(&end))?;
         let result = RunResult {
             status: end.status,
             exit_code: end.status.exit_code(),

@@ -178,7 +178,10 @@ impl StagesTold {
     }
 
     /// Says of contacts that nothing touched in the whole run: a note where another did, or else a warning.
-    pub fn tell_untouched(&mut self) {
+    pub fn tell_untouched(&mut self, outcome: &Outcome) {
+        if !matches!(outcome, Outcome::Done) {
+            return;
+        }
         let [touched, open] = std::mem::take(&mut self.contacts);
         let open: BTreeSet<String> = open.into_iter().filter(|name| !touched.contains(name)).collect();
         if open.is_empty() {

@@ -1,6 +1,6 @@
 //! Deck → model, with all errors reported together. Each table is read after the tables it depends on.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -283,8 +283,7 @@ fn model<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, files: Files<'d>, 
     let linked = links.list.iter().map(|link| link.ends).chain(contacts.iter().flat_map(|contact| contact.pairs()));
     check_sound(&scene, &amplitudes, &topology, Ties::new(&topology, &joints, linked), report);
     place_nodes(&scene.names, &scene.parts, &mut topology);
-    let sets = supported_sets(&asked.selection, &scene, &topology.list);
-    let sums = summed_reactions(&scene, &asked.expects, &topology);
+    let (sets, sums) = named_reactions(&scene, &asked, &topology);
     let targets = std::mem::take(&mut topology.targets);
     let (nodes, dependents, restraints) = topology.into_parts();
     let mut analysis = Analysis { stage: asked.stage, ..scene.analysis };
@@ -415,6 +414,16 @@ fn ask<'d>(
     let selection = output(scene, &topology.list, arc_length.is_some(), report);
     let study = study(scene, scheme, &topology.list, report);
     Questions { stage, arc_length, expects, selection, study, cases }
+}
+
+/// The sets of supported nodes by their labels, and the labels of nodes whose reactions are summed.
+fn named_reactions(
+    scene: &Scene,
+    asked: &Questions,
+    topology: &Topology,
+) -> (HashMap<String, String>, Vec<HashSet<String>>) {
+    let sets = supported_sets(&asked.selection, scene, &topology.list);
+    (sets, summed_reactions(scene, &asked.expects, topology))
 }
 
 /// Checks a scene without errors for suspicious input.

@@ -57,6 +57,7 @@ pub mod inner {
     pub use crate::beams::grading::cuts;
     pub use crate::contacts::mesh_edges::{MeshEdge, mesh_edges};
     pub use crate::places::cells::Cells;
+    pub use crate::plausibility::unseen_record::missed;
 }
 
 pub use build::{build_read, read, read_stages, replan};

@@ -158,13 +158,7 @@ impl CurveAxis {
     fn read(&self, folder: &Path) -> io::Result<Points> {
         let path = folder.join(&self.file);
         let mut rows = TableReader::open(&path)?;
-        let place = |rows: &TableReader, name: &str| {
-            rows.column(name).ok_or_else(|| {
-                let known: Vec<&str> = rows.header.iter().map(String::as_str).collect();
-                let why = format!("there is no column `{name}`; the columns are {}", known.join(", "));
-                at(&path, io::Error::other(why))
-            })
-        };
+        let place = |rows: &TableReader, name: &str| rows.column(name).ok_or_else(|| no_column(rows, &path, name));
         let (time_at, place_of_value) = (place(&rows, "time")?, place(&rows, &self.column)?);
         let [step_at, stage_at, set_at] = ["step", STAGE, SET].map(|name| rows.column(name));
         let width = rows.header.len();
@@ -218,6 +212,12 @@ impl CurveAxis {
         }
         Ok(points)
     }
+}
+
+/// The error on a column that is missing.
+fn no_column(rows: &TableReader, path: &Path, name: &str) -> io::Error {
+    let why = format!("there is no column `{name}`; the columns are {}", rows.header.join(", "));
+    at(path, io::Error::other(why))
 }
 
 /// Whether a name is that of a pattern in which `*` stands for anything.

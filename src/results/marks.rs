@@ -2,7 +2,7 @@
 
 use base::math::Vec3;
 use mechanics::sections::SectionOutline;
-use model::{FieldFormat, JointOrigin, Model, Part};
+use model::{FieldFormat, JointOrigin, Model};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
@@ -104,7 +104,7 @@ fn has_grids(model: &Model) -> bool {
 /// The labels of named nodes that follow each other along beams and bars.
 fn members(model: &Model) -> Vec<[String; 2]> {
     let mut members = Vec::new();
-    for part in model.parts.iter().filter(|part| matches!(part, Part::Beam(_) | Part::Bar(_))) {
+    for part in model.parts.iter().filter(|part| part.kind().is_line()) {
         let (mut from, mut end) = (None, None);
         for element in 0..part.elements() {
             let nodes = part.nodes(element);

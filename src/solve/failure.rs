@@ -340,6 +340,14 @@ fn energy_growth(ratio: f64, scheme: Option<&str>, shortens: &str) -> String {
     }
 }
 
+/// The message of a stage whose loads have changed their sign before another stage.
+fn time_went_back([begin, end]: [String; 2]) -> String {
+    format!(
+        "the loads of this stage act against its `stop`, so that the time, which is their factor, went back from {begin} to {end}: no stage can \
+         follow. Give these loads the other sign"
+    )
+}
+
 /// The message of a singular matrix, with a part there that is open or slack.
 fn singular(label: &str, direction: &str, open: Option<&str>) -> String {
     let remedy = open.map_or_else(
@@ -524,12 +532,7 @@ impl Failure {
                  `amplitude` that changes there, or remove `control`",
                 short(*time)
             ),
-            Failure::TimeWentBack { begin, end } => format!(
-                "the loads of this stage act against its `stop`, so that the time, which is their factor, went back from {} to {}: no stage can follow. \
-                 Give these loads the other sign",
-                short(*begin),
-                short(*end)
-            ),
+            Failure::TimeWentBack { begin, end } => time_went_back([*begin, *end].map(short)),
             Failure::LoadStepTurns { label, angle } => format!(
                 "a load step rotates `{label}` by {angle:.1} radians, and shorter steps do not help: the equilibrium jumps, by a mechanism or \
                  snap-through. Add a support there, or compute the motion with `kind = \"dynamic\"`"

@@ -156,7 +156,8 @@ impl March<'_, '_> {
 
     /// The outcome of a run that ends here because no step is short enough.
     pub fn given_up(&mut self, failure: Failure) -> Outcome {
-        let failure = out_of_reach::explained(self.cx, self.ws, self.state, failure);
+        let failure =
+            out_of_reach::explained(self.cx, (&mut self.ws.forces, &mut self.ws.loads.instant), self.state, failure);
         self.failed(failure)
     }
 

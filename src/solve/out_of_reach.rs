@@ -5,32 +5,34 @@
 
 use super::context::Context;
 use super::failure::Failure;
-use super::workspace::Workspace;
-use crate::system::Side;
+use crate::system::{Forces, Loading, Side};
 use crate::tolerances::out_of_reach::MOST;
 use base::math::{Vec6, angular, linear, stack};
 use mechanics::constraints::joint::MOST_ENDS;
 use mechanics::state::State;
 
+/// Room for forces and loads.
+type ForceRoom<'r> = (&'r mut Forces, &'r mut Loading);
+
 /// The failure of a step from this state, by a drive beyond its reach if there is one.
-pub fn explained(cx: &Context, ws: &mut Workspace, state: &State, failure: Failure) -> Failure {
+pub fn explained(cx: &Context, room: ForceRoom, state: &State, failure: Failure) -> Failure {
     match failure {
         Failure::NotConverged { .. }
         | Failure::ConstraintsViolated { .. }
         | Failure::TooManySubsteps { .. }
         | Failure::ErrorTooLarge { .. }
-        | Failure::LoadStepTurns { .. } => farthest_drive(cx, ws, state).unwrap_or(failure),
+        | Failure::LoadStepTurns { .. } => farthest_drive(cx, room, state).unwrap_or(failure),
         failure => failure,
     }
 }
 
 /// The prescribed drive whose force is largest over the other forces on nodes, where it is beyond all reason.
-fn farthest_drive(cx: &Context, ws: &mut Workspace, state: &State) -> Option<Failure> {
+fn farthest_drive(cx: &Context, room: ForceRoom, state: &State) -> Option<Failure> {
     let is_prescribed = |number: usize| cx.system.joints[number].drive.as_ref().is_some_and(|drive| !drive.is_free);
     if !(0..cx.system.joints.len()).any(is_prescribed) {
         return None;
     }
-    let others = forces_besides_joints(cx, ws, state);
+    let others = forces_besides_joints(cx, room, state);
     // Without other forces, all forces of joints are rounding.
     if others == 0.0 {
         return None;
@@ -52,18 +54,18 @@ fn farthest_drive(cx: &Context, ws: &mut Workspace, state: &State) -> Option<Fai
 }
 
 /// The largest force on a node by loads, elements and inertia.
-fn forces_besides_joints(cx: &Context, ws: &mut Workspace, state: &State) -> f64 {
-    ws.forces.multipliers.values.fill(0.0);
-    cx.excitation.loading(state.time, Side::Before, &mut ws.loads.instant);
-    cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
-    let largest = |ws: &Workspace| ws.forces.on_nodes.iter().map(|f| size(cx, &Vec6::from(*f))).fold(0.0, f64::max);
-    let acting = largest(ws);
+fn forces_besides_joints(cx: &Context, (forces, loading): ForceRoom, state: &State) -> f64 {
+    forces.multipliers.values.fill(0.0);
+    cx.excitation.loading(state.time, Side::Before, loading);
+    cx.system.residual(&state.configuration(), loading, forces);
+    let largest = |forces: &Forces| forces.on_nodes.iter().map(|f| size(cx, &Vec6::from(*f))).fold(0.0, f64::max);
+    let acting = largest(forces);
     if !cx.is_dynamic() {
         return acting;
     }
     let mut accelerations: Vec<Vec6> = state.nodes.iter().map(|node| stack(&node.a, &node.alpha)).collect();
-    cx.system.apply_mass(&state.nodes, &mut accelerations, &mut ws.forces);
-    acting.max(largest(ws))
+    cx.system.apply_mass(&state.nodes, &mut accelerations, forces);
+    acting.max(largest(forces))
 }
 
 /// The size of a force and a moment as one force.

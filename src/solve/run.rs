@@ -27,7 +27,7 @@ use crate::system::kinks::has_kinks;
 use base::snapshot::{Keep, Snapshot};
 use linear::{Solver, TooLarge};
 use mechanics::state::State;
-use model::{Contact, Model, PartType, StepLength};
+use model::{Model, StepLength};
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
@@ -349,12 +349,10 @@ impl<'a> Run<'a> {
 
     /// Names of the contacts with a force that have touched, and of those that have not.
     pub fn contacts(&self) -> [Vec<String>; 2] {
-        let parts = self.context.model.parts.iter().enumerate();
-        let acting =
-            parts.filter_map(|(place, part)| Some((place, Contact::of(part).filter(|one| one.law.is_some())?)));
-        let has_touched = |(place, _): &(usize, &Contact)| self.workspace.warnings.touched.contains(place);
-        let (touched, open): (Vec<_>, Vec<_>) = acting.partition(has_touched);
-        [touched, open].map(|all| all.into_iter().map(|(_, contact)| contact.name.clone()).collect())
+        let has_touched = |place: &usize| self.workspace.warnings.touched.contains(place);
+        let (touched, open): (Vec<_>, Vec<_>) = self.context.system.contact_parts().into_iter().partition(has_touched);
+        let name = |place: usize| self.context.model.parts[place].name().to_owned();
+        [touched, open].map(|places| places.into_iter().map(name).collect())
     }
 
     /// The remarks on omitted checks.

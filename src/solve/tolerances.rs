@@ -789,6 +789,11 @@ pub mod shape {
     pub const STILL: f64 = 1e-7;
 }
 
+pub mod spin_in_words {
+    /// Relative difference of two spins in one group.
+    pub const ALIKE: f64 = 1e-9;
+}
+
 pub mod gyroscopic {
     /// Kinetic energy across the axis of the spin, as a part of that along and about it, below which it is rounding.
     pub const ORBIT: f64 = 1e-10;

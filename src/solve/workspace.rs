@@ -13,7 +13,6 @@ use crate::system::{Forces, Loading, Prescribed};
 use base::snapshot::{Keep, Snapshot, keep};
 use linear::{Solver, TooLarge};
 use mechanics::state::{Node, State};
-use model::Contact;
 
 /// The data of the current step.
 pub struct Workspace {
@@ -188,7 +187,7 @@ impl Workspace {
 /// The remarks that a run begins with, and room for all contacts that touch.
 fn warnings_of(cx: &Context, solver: &Solver) -> Warnings {
     let mut warnings = Warnings::default();
-    warnings.touched.reserve(cx.model.each::<Contact>().count());
+    warnings.touched.reserve(cx.model.parts.iter().filter(|part| part.kind().is_unilateral()).count());
     if solver.stats().in_file {
         warnings.remark(Remark::FactorInFile(solver.scratch()));
     }

@@ -4,17 +4,17 @@ use super::source::{CRATES, lines_below};
 
 /// Lines of the sources below src by crate, `program` for what lies beside them.
 const BUDGET: [(&str, usize); 11] = [
-    ("base", 7020),
+    ("base", 7027),
     ("linear", 4270),
-    ("mechanics", 36_955),
-    ("deck", 5500),
-    ("import", 11_530),
-    ("model", 29_260),
-    ("solve", 36_520),
-    ("results", 12_130),
-    ("study", 4280),
-    ("sweep", 1525),
-    ("program", 6810),
+    ("mechanics", 36_979),
+    ("deck", 5508),
+    ("import", 11_568),
+    ("model", 29_797),
+    ("solve", 36_957),
+    ("results", 12_446),
+    ("study", 4276),
+    ("sweep", 1523),
+    ("program", 6981),
 ];
 
 #[test]

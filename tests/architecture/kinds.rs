@@ -12,7 +12,7 @@ const PARTS: [&str; 5] = ["Beam", "Bar", "Shell", "Link", "Contact"];
 const STRANGERS: usize = 6;
 
 /// Kinds of parts that more files name: stresses and loads at a place are those of beams alone, foundations lie under beams and shells.
-const WELL_KNOWN: Known = &[("Beam", 11), ("Shell", 7)];
+const WELL_KNOWN: Known = &[("Beam", 11), ("Contact", 7), ("Shell", 7)];
 
 /// Folders in which each file is a kind of its own, and what else stands there.
 const CATALOGUES: [(&str, &[&str]); 7] = [

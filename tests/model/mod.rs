@@ -18,3 +18,4 @@ mod rotations;
 mod scaled_loads;
 mod superelements;
 mod tables_of_positions;
+mod unseen_record;

@@ -101,7 +101,7 @@ impl LawReader<'_, '_> {
         let meeting = self.meeting(opposite, &points, &levers);
         let chosen = match &contact.stiffness {
             Some(_) => None,
-            None => match self.chosen_stiffness(contact, &meeting, opposite, &points) {
+            None => match self.chosen_stiffness(&meeting, opposite, &points) {
                 Ok(chosen) => Some(chosen),
                 Err(hint) => return report.error_with(owner.span, format!("{} needs `stiffness`", owner.what), hint),
             },
@@ -261,7 +261,6 @@ impl LawReader<'_, '_> {
     /// The stiffness by the touching bodies, or the reason for having none.
     fn chosen_stiffness(
         &self,
-        contact: &words::Contact,
         meeting: &Meeting,
         opposite: Opposite,
         points: &[ContactPoint],

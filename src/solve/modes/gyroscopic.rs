@@ -147,8 +147,8 @@ impl Gyroscopic {
 
 /// A warning for a beam with different spins at the ends of an element. No steady motion has them.
 fn uneven_spin(at: &Linearized, part: &Part) -> Option<String> {
-    let is_beam = matches!(part, Part::Beam(_));
-    (0..if is_beam { part.elements() } else { 0 }).find_map(|element| {
+    let has_torsion = part.kind().has_sections();
+    (0..if has_torsion { part.elements() } else { 0 }).find_map(|element| {
         let &[first, .., last] = part.nodes(element) else { return None };
         let axis = (at.model.nodes[last].x - at.model.nodes[first].x).try_normalize(0.0)?;
         let ends = [first, last].map(|node| at.root(node).0);

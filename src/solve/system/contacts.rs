@@ -148,6 +148,13 @@ impl System {
         self.contact_groups().map(|(group, block)| (group, block.last_gap(&state.history[group.history.clone()])))
     }
 
+    /// The contacts with a force, by their indices in [`Model::parts`].
+    pub fn contact_parts(&self) -> Vec<usize> {
+        let mut parts: Vec<usize> = self.contact_groups().map(|(group, _)| group.part).collect();
+        parts.dedup();
+        parts
+    }
+
     /// Adds the contacts that touch at the end of a step, or have within it, by their indices in [`Model::parts`].
     pub fn note_touched(&self, state: &State, touched: &mut Vec<usize>) {
         for (group, block) in self.contact_groups() {

@@ -2,13 +2,12 @@
 
 use super::explanation::Explanation;
 use super::quantities::{along, symbol};
+use crate::tolerances::spin_in_words::ALIKE;
 use base::math::Vec3;
 use base::names::{joined, short};
 use base::quantities::{Unit, UnitSystem};
 use model::{Body, Model};
 
-/// Relative difference of two spins in one group.
-const ALIKE: f64 = 1e-9;
 /// Spins that are listed one by one.
 const LISTED: usize = 6;
 
