@@ -388,6 +388,7 @@ mod tests {
             valid_until: Some(0.1),
             origin: RunOrigin { version: "0.1.0".into(), deck_hash: "00ff".into(), ..RunOrigin::default() },
             plan: vec!["dynamic".into()],
+            by_displacement: false,
             sizes: Sizes { unknowns: 12, ..Sizes::default() },
             counts: ReportedCounts { steps: 3, ..ReportedCounts::default() },
             timings: Timings { loop_s: 0.1, ..Timings::default() },

@@ -161,8 +161,8 @@ impl LawReader<'_, '_> {
         }
     }
 
-    /// Warns of fixed steps that are too long for an impact, and are not cut: of explicit ones that have lowered the stiffness, and of implicit
-    /// ones in which a node comes and goes within a part of a step.
+    /// Warns of fixed steps that are too long for an impact. Explicit ones then have lowered the stiffness; in implicit ones a node comes and goes
+    /// within a part of a step.
     fn check_step(&self, owner: &Owner, meeting: &Meeting, chosen: &ChosenStiffness, report: &mut Report) {
         let StepLength::Fixed { step } = self.scene.analysis.step_length else { return };
         let ChosenStiffness { stiffness, called_for, .. } = *chosen;

@@ -42,8 +42,8 @@ pub fn check_unseen_records(scene: &Scene, scheme: &dyn Scheme, amplitudes: &[Am
     }
 }
 
-/// The mean distance of the points of a table within a run, where samples so far apart are fewer, and the part of its mean square that straight lines
-/// between these samples miss.
+/// The mean distance of the points of a table within a run, and the part of its mean square that samples so far `apart` miss. Lines join the
+/// samples. `None` where samples are as close as the points.
 pub fn missed(amplitude: &Amplitude, apart: f64, [begin, end]: [f64; 2]) -> Option<(f64, f64)> {
     let points = amplitude.points()?;
     let inside: Vec<&[f64; 2]> = points.iter().filter(|[time, _]| begin <= *time && *time <= end).collect();
