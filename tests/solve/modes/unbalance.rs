@@ -146,7 +146,7 @@ fn in_a_stage() {
     let alone = modes(&text);
     let stages = "[[stages]]\nname = \"weight\"\nkind = \"static\"\nduration = 1.0\ntime_step = 1.0\n[[stages]]\nname = \"run\"\nkind = \"frequency-response\"\nfrequencies = [20.0]\n";
     let scene = text.split_once("[materials").unwrap().1;
-    let models = read_stages(&Source::new("deck.toml", &format!("{stages}[materials{scene}"), &[]));
+    let models = read_stages(&Source::new("deck.toml", format!("{stages}[materials{scene}"), &[]));
     assert_eq!(models.len(), 2);
     assert_eq!(models[0].loading.unbalanced_node(), None);
     let (ended, staged) = outcome(&models[1]);
