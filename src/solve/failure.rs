@@ -333,8 +333,8 @@ fn energy_growth(ratio: f64, scheme: Option<&str>, shortens: &str) -> String {
             let dissipates = "`scheme = \"bathe\"`, which dissipates motions that steps do not resolve, and ";
             let other = if scheme == "bathe" { "" } else { dissipates };
             format!(
-                "energy growth: `{scheme}` has added {} % of the largest energy, and the motion is lost. Give {other}a tenth of `{shortens}`",
-                to_digits(100.0 * ratio, 2)
+                "energy growth: `{scheme}` has generated {ratio:.1e} times the available energy, and the motion is lost. Give {other}a tenth of \
+                 `{shortens}`"
             )
         }
     }
@@ -464,7 +464,7 @@ impl Failure {
             Failure::ConstraintsViolated { inertias, .. } => constraints_violated(inertias),
             Failure::OutOfReach { name, position, times } => format!(
                 "`{name}` prescribes a `position` beyond the reach of the linkage: near {} its force is {} times the largest other force, for the links \
-                 come to lie in one line. Stay on this side of {}, or move the ends of `{name}`",
+                 come to lie in one line. Prescribe a position nearer to zero than {}, or move the ends of `{name}`",
                 to_digits(*position, 4),
                 to_digits(*times, 2),
                 to_digits(*position, 4)

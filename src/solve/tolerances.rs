@@ -313,9 +313,6 @@ pub mod energy_growth {
     /// Kinetic energy at the end of a run by other schemes, beyond the available energy and as a multiple of it, above which the run fails. A
     /// sudden start leaves a multiple of 3 in unresolved modes for some steps.
     pub const LOST: f64 = 10.0;
-    /// Energy that other schemes have added by the end, as a multiple of the largest energy, above which the run fails. A first step far too
-    /// long under a sudden weight adds 0.95, and work of impacts is counted up to a tenth too large.
-    pub const GROWN: f64 = 1.0;
     /// Part of the available energy that steps may generate with sound results.
     pub const SOUND: f64 = 0.02;
 }

@@ -25,7 +25,9 @@ fn of_case(model: &Model, file: &str, case: Option<&str>) -> Vec<Vec<f64>> {
     };
     let numbers = |row: &Row| {
         let mut own = row.numbers();
-        own.retain(|(name, _)| !KEYS.contains(name));
+        // Magnitudes have no derivative where they vanish.
+        let is_magnitude = |name: &str| file == "joints.csv" && ["force", "moment"].contains(&name);
+        own.retain(|(name, _)| !KEYS.contains(name) && !is_magnitude(name));
         own.sort_unstable_by_key(|(name, _)| *name);
         own.into_iter().map(|(_, value)| value).collect()
     };

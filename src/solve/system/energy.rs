@@ -237,12 +237,6 @@ impl Balance {
         missing <= self.damping && self.raised < 0.5 * missing
     }
 
-    /// Energy that the time integration has added up to now; 0 where plastic flow or dampers explain it.
-    pub fn added(&self) -> f64 {
-        let added = -self.lost;
-        if added <= self.plastic || self.is_work_of_dampers(added) { 0.0 } else { added }
-    }
-
     /// Records the external work of a step. Energies are summed at some steps only, and by then the work may have been given back.
     pub fn update_work(&mut self, external: f64) {
         let external = external - self.before[1];
