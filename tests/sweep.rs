@@ -733,7 +733,7 @@ fn peaks_between_rows_are_collected() {
         assert_eq!(rdsolve(at, &["sweep", &format!("{name}.toml"), "--quiet"]).status.code(), Some(0));
         fs::read_to_string(at.join(format!("{name}.out/summary.csv"))).unwrap()
     };
-    let fine = summary("fine", "fine.toml", "all");
+    let fine = summary("every", "fine.toml", "all");
     for keep in ["all", "failed", "summary"] {
         assert_eq!(summary(keep, "thin.toml", keep), fine, "{keep}");
     }

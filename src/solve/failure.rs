@@ -464,7 +464,7 @@ impl Failure {
             Failure::ConstraintsViolated { inertias, .. } => constraints_violated(inertias),
             Failure::OutOfReach { name, position, times } => format!(
                 "`{name}` prescribes a `position` beyond the reach of the linkage: near {} its force is {} times the largest other force, for the links \
-                 come to lie in one line. Prescribe a position nearer to zero than {}, or move the ends of `{name}`",
+                 come to lie in one line. Give a position nearer to zero than {}, or move the ends of `{name}`",
                 to_digits(*position, 4),
                 to_digits(*times, 2),
                 to_digits(*position, 4)

@@ -48,7 +48,7 @@ fn a_motion_that_grows_without_end_fails_and_shorter_steps_or_dissipation_mend_i
     // ω dt = 5 against a limit of 2.58.
     let (code, said, _) = run(&oscillator(UNSTABLE, 5e-3, ""));
     assert_eq!(code, 4, "{said}");
-    let told = "energy growth: `newmark` has added ";
+    let told = "energy growth: `newmark` has generated ";
     assert!(said.contains(told) && said.contains("the motion is lost. Give `scheme = "), "{said}");
     // Its balance was kept at t = 0 alone.
     assert!(said.contains("results are valid up to t = 0\n"), "{said}");
