@@ -106,7 +106,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     job.conclude(ended)
 }
 
-/// Says which scheme often takes less time.
+/// Names a scheme that often takes less time.
 fn offer_alternative(args: &RunArgs, model: &Model, threads: usize) {
     if !args.quiet && !args.resume {
         alternative(model, threads).iter().for_each(|note| say(&format!("note: {note}")));

@@ -196,9 +196,9 @@ pub enum Failure {
     },
     /// A stage by displacement control has led its loads below zero, and another stage is to follow.
     TimeWentBack {
-        /// The time at which the stage began.
+        /// The begin of the stage, in time.
         begin: f64,
-        /// The time at which it ended.
+        /// The end of the stage, in time.
         end: f64,
     },
     /// There are no modes about the state.

@@ -184,7 +184,7 @@ impl Workspace {
     }
 }
 
-/// The remarks that a run begins with, and room for all contacts that touch.
+/// The remarks at the begin of a run, and room for all contacts.
 fn warnings_of(cx: &Context, solver: &Solver) -> Warnings {
     let mut warnings = Warnings::default();
     warnings.touched.reserve(cx.model.parts.iter().filter(|part| part.kind().is_unilateral()).count());

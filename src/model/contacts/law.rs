@@ -25,8 +25,8 @@ const RESOLUTION_OF_LIGHT: f64 = 0.2;
 const TOUCHING: f64 = 1e-12;
 /// Number of steps for an impact where steps are not cut, as in the chapter on contact stiffness.
 const STEPS: f64 = 10.0;
-/// Number of implicit steps for an impact of the lightest node on a heavy body. Nodes stop within a step, at a loss of their own energy alone; the
-/// body that strikes them is slowed down over many steps.
+/// Number of implicit steps for an impact of the lightest node on a heavy body. The node loses its own energy within a step. The body slows down
+/// over many steps.
 const STEPS_OF_NODE: f64 = 1.0;
 /// Effective mass over that of the lightest node for a heavy body: it has a hundred times the mass of the node, whose energy is then not seen.
 const HEAVY: f64 = 10.0;

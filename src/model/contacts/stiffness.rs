@@ -1,5 +1,5 @@
-//! The penalty stiffness chosen by the program: by material and size of the bodies, by weight and by speed. Steps lower it to what they
-//! follow; shorter ones do not, so that results converge with the step.
+//! The penalty stiffness chosen by the program: by material and size of the bodies, by weight and by speed. Long steps
+//! lower it. Short steps keep it, so that results converge with the step.
 
 use crate::contacts::opposite::Opposite;
 use crate::data::Body;
