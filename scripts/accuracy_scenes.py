@@ -107,6 +107,7 @@ MOTIONS |= {
     "contact": alone("decks/ball_on_free_plate/deck.toml", 1e-3, 64, (), PLATE, ("shells.plate.elements=12",)),
     "loop": alone("decks/andrews_squeezer/deck.toml", 6e-4, 256),
     "rotor": alone("decks/rotating_blade/deck.toml", 0.06, 128, ("analysis.end_time=3.0",), BLADE, ("beams.blade.elements=4", "beams.blade.order=4")),
+    "X2": alone("decks/extreme/stiff_pendulum/deck.toml", 0.2066761, 512),
     "cable": alone("decks/caught_by_a_rope/deck.toml", 0.032, 512),
     "earthquake": alone("decks/isolated_building/deck.toml", 0.02, 64),
     "tumbling": alone("decks/heavy_top/deck.toml", 0.01, 256)._replace(scheme="runge-kutta", schemes=("wilson-theta", "esdirk3", "runge-kutta")),

@@ -3,7 +3,8 @@
 
     scripts/precision.py            # some minutes; draws docs/pictures/precision.svg, prints both tables as Markdown
 
-Each scene is a `rdsolve study` of its deck, with schemes and automatic steps; other programs' loops are marked with crosses (see
+Each scene is a `rdsolve study` of its deck, with schemes and automatic steps. Two more lines are `accuracy` from a poor mesh, whose time includes
+pilot runs, and the best equal steps over several meshes. Other programs' loops are marked with crosses (see
 the README for where they come from; measured on another machine). Then scripts/stability.py. Python's standard library only.
 """
 
@@ -14,11 +15,17 @@ import sys
 import tempfile
 from pathlib import Path
 
+import scenes
 import stability
-from scenes import PROGRAM, ROOT, build
+from accuracy_asked import DIVISIONS, asking, equal
+from accuracy_scenes import MOTIONS
+from scenes import ROOT, SCENES, build
 
 IMPLICIT = "wilson-theta,newmark,generalized-alpha,bathe"
 TOLERANCES = "1e-2,3e-3,1e-3,3e-4,1e-4"
+REPEATS = 5
+LONGEST = 10.0
+"""Seconds of the last run of a line by `accuracy`."""
 
 
 class Panel:
@@ -32,20 +39,48 @@ PANELS = [
     Panel("C1: block on a cantilever", "block_on_cantilever", ["--schemes", IMPLICIT], [(0.007, 1e-2), (0.016, 1e-3), (0.043, 1e-4)]),
     Panel("C4: steel portal hit by a block", "portal_and_block", ["--schemes", "wilson-theta,generalized-alpha,bathe"], [(0.12, 1e-2), (0.83, 1e-3)]),
 ]
-COLOURS = {"wilson-theta": "#3b7dd8", "newmark": "#b38a12", "generalized-alpha": "#2f9e63", "bathe": "#b058c4", "runge-kutta": "#1f9aa8"}
+COLOURS = {"wilson-theta": "#3b7dd8", "newmark": "#b38a12", "generalized-alpha": "#2f9e63", "bathe": "#b058c4", "runge-kutta": "#1f9aa8", "best equal steps": "#7c7f86", "accuracy": "#e07b00"}
+WIDTHS = {"best equal steps": 3.5, "accuracy": 3.0}
 WIDTH, HEIGHT, LEFT, TOP, BELOW = 360.0, 250.0, 62.0, 34.0, 52.0
 
 
 def study(panel: Panel, folder: Path) -> list[dict]:
     deck = ROOT / "decks" / panel.folder / "deck.toml"
-    arguments = [str(PROGRAM), "study", str(deck), "-o", str(folder), "--quiet", "--error-tolerances", TOLERANCES, *panel.options]
-    arguments += ["--repeats", "5", "--budget", "1.5", "--set", "expect=[]", "--wanted-error", "1e-2,1e-3,1e-4"]
+    arguments = [str(scenes.PROGRAM), "study", str(deck), "-o", str(folder), "--quiet", "--error-tolerances", TOLERANCES, *panel.options]
+    arguments += ["--repeats", str(REPEATS), "--budget", "1.5", "--set", "expect=[]", "--wanted-error", "1e-2,1e-3,1e-4"]
     done = subprocess.run(arguments, capture_output=True, text=True)
     if done.returncode:
         sys.exit(f"{panel.title}: exit code {done.returncode}\n{done.stderr}")
     print(f"\n{panel.title}\n\n```\n{done.stdout.rstrip()}\n```")
     with (folder / "study.csv").open(newline="") as file:
-        return [row for row in csv.DictReader(file) if row["status"] == "done" and row["error"]]
+        rows = [row for row in csv.DictReader(file) if row["status"] == "done" and row["error"]]
+    return rows + with_meshes(panel.title.split(":")[0])
+
+
+def with_meshes(name: str) -> list[dict]:
+    """Rows of the best equal steps over all meshes, and of `accuracy`."""
+    motion = MOTIONS[name]
+    settings = (equal(motion, mesh, scheme, division) for mesh in motion.meshes for scheme in motion.schemes for division in DIVISIONS)
+    found = sorted(done for sets in settings if (done := measured(name, sets)))
+    # No cheaper setting errs less.
+    best = [(loop, error) for k, (loop, error) in enumerate(found) if all(error < other for _, other in found[:k])]
+    own: list[tuple[float, float]] = []
+    for asked in TOLERANCES.split(","):
+        if not own or own[-1][0] < LONGEST:
+            own += filter(None, [measured(name, asking(motion, float(asked)))])
+    lines = {"best equal steps": best, "accuracy": own}
+    rows = [{"scheme": scheme, "error_tolerance": "", "loop_s": loop, "error": error} for scheme, of in lines.items() for loop, error in of]
+    print("\n".join(f"{row['scheme']}: {row['loop_s']:.4f} s, error {row['error']:.1e}" for row in rows), flush=True)
+    return rows
+
+
+def measured(name: str, sets: list[str]) -> tuple[float, float] | None:
+    """Seconds and error of a run; none where it fails."""
+    try:
+        error, loop, _, _ = SCENES[name].measure(sets, REPEATS)
+    except RuntimeError:
+        return None
+    return loop, error
 
 
 class Axis:
@@ -92,7 +127,7 @@ def draw(panel: Panel, rows: list[dict], left: float, top: float) -> str:
         colour = COLOURS.get(scheme.split(":")[0], "#7c7f86")
         at = [(x.at(time), y.at(error)) for time, error in points]
         dash = ' stroke-dasharray="5 3"' if automatic else ""
-        out.append(f'<polyline points="{" ".join(f"{a:.1f},{b:.1f}" for a, b in at)}" fill="none" stroke="{colour}" stroke-width="1.8"{dash}/>')
+        out.append(f'<polyline points="{" ".join(f"{a:.1f},{b:.1f}" for a, b in at)}" fill="none" stroke="{colour}" stroke-width="{WIDTHS.get(scheme, 1.8)}"{dash}/>')
         fill = "none" if automatic else colour
         out += [f'<circle cx="{a:.1f}" cy="{b:.1f}" r="2.6" fill="{fill}" stroke="{colour}"/>' for a, b in at]
     for time, error in panel.marks:
@@ -107,10 +142,11 @@ def picture(panels: list[tuple[Panel, list[dict]]]) -> str:
     whole, tall = 2 * step_x + 10, 2 * step_y + 40
     foot = tall + 6
     legend, at = [], LEFT
-    for name, colour in COLOURS.items():
+    drawn = {row["scheme"].split(":")[0] for _, rows in panels for row in rows}
+    for name, colour in ((name, colour) for name, colour in COLOURS.items() if name in drawn):
         legend.append(f'<line x1="{at}" y1="{tall - 20}" x2="{at + 22}" y2="{tall - 20}" stroke="{colour}" stroke-width="2"/>')
         legend.append(f'<text x="{at + 28}" y="{tall - 16}">{name}</text>')
-        at += 44 + 8.0 * len(name)
+        at += 42 + 6.6 * len(name)
     legend.append(f'<text x="{LEFT}" y="{foot}">dashed: automatic steps; x: best of other programs</text>')
     style = (
         ".p{font:12px sans-serif}.p text{fill:#57606a}.p .rule{stroke:#808890;stroke-opacity:.25}.p .edge{fill:none;stroke:#808890}"

@@ -42,7 +42,9 @@ class Run(NamedTuple):
 
     @property
     def loop_s(self) -> float:
-        return self.report["timings"]["loop_s"]
+        """Seconds of the time loop, with those of pilot runs."""
+        timings = self.report["timings"]
+        return timings["loop_s"] + timings.get("pilots_s", 0.0)
 
 
 def run(deck: Path, sets: list[str], folder: Path, threads: int = 1) -> Run:
