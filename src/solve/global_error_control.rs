@@ -175,14 +175,11 @@ impl Run<'_> {
         let pilot = self.pilot.take().filter(judges);
         let other = control.before.take().map(|before| (OtherRun::Before as TellOther, before));
         let other = other.or(pilot.map(|pilot| (OtherRun::Pilot as TellOther, pilot)));
-        match other.filter(|(_, other)| control.judged.run.is_told_by(other)) {
-            Some(other) => self.judge(control, Some(other), observer),
-            None if self.is_dictated(&control.judged.run, control.pieces) => self.judge(control, None, observer),
-            None => {
-                self.begin_comparison(control, observer);
-                None
-            }
+        if let Some(other) = other.filter(|(_, other)| control.judged.run.is_told_by(other)) {
+            return self.judge(control, Some(other), observer);
         }
+        self.begin_comparison(control, observer);
+        None
     }
 
     /// Prepares for another run, if this one has failed or its predicted error is too large. `None`: this run stands.
@@ -261,9 +258,9 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// True if jumps and kinks of loads determine most steps of a run, so that a comparison run would have the same. A division of the intervals
-    /// between them follows once.
-    fn is_dictated(&self, run: &Kept, pieces: Pieces) -> bool {
+    /// True if jumps and kinks of loads determine most steps of the run. A comparison run with steps to kinks would have the same, so it steps across them.
+    /// If it does not bound the error, a division of the intervals between them follows once.
+    fn is_dictated(&self, GlobalErrorControl { judged: Judged { run, .. }, pieces, .. }: &GlobalErrorControl) -> bool {
         let inside = self.controller.looks_inside();
         let schedule = Schedule::of_trial(self.context.model, std::iter::empty(), inside).until(run.end());
         // Each interval with one step has the same step in both runs, and every other one has two steps at least.
@@ -278,20 +275,21 @@ impl Run<'_> {
         other: Option<(TellOther, Kept)>,
         observer: &mut dyn Observer,
     ) -> Option<(Outcome, Option<State>)> {
-        let is_dictated = self.is_dictated(&control.judged.run, control.pieces);
+        let across_kinks = control.under_way == UnderWay::Comparison && self.is_dictated(control);
         let GlobalErrorControl { error, pieces, judged, .. } = control;
         let (run, inside) = (std::mem::take(&mut judged.run), self.controller.looks_inside());
         let next = match &other {
             Some((_, other)) => error.judge(&run, other, self.context.size()),
             None => Some(error.without_comparison()),
         };
-        let dictated = other.as_ref().map_or(is_dictated, |(_, other)| run.has_steps_of(other));
+        let dictated = across_kinks || other.as_ref().is_some_and(|(_, other)| run.has_steps_of(other));
         // Both runs of a stage begin with the errors of earlier stages, which their difference does not contain.
         let tells = error.estimate.is_some() && !self.context.model.analysis.follows_motion();
         observer.on_other_run(other.filter(|_| tells).map(|(which, _)| which(error.apart)));
         // If jumps and kinks of loads determine most steps, only a finer division between them changes the steps.
         *pieces = Pieces { before: pieces.now, now: if dictated { 2 * pieces.now } else { pieces.now } };
-        let next = if dictated { Some(error.tolerance) } else { next };
+        // All other steps become half as long, too.
+        let next = next.map(|tolerance| if dictated { error.tolerance / LOOSER } else { tolerance });
         let Some(tolerance) = next.filter(|_| error.others - error.early < MOST_RUNS) else {
             self.workspace.warnings.extend(error.warning());
             self.step_error = Some(*error);
@@ -340,13 +338,15 @@ impl Run<'_> {
 
     /// Stores the data of the completed run during a comparison run with longer steps.
     fn begin_comparison(&mut self, control: &mut GlobalErrorControl, observer: &mut dyn Observer) {
+        // Steps across kinks are two steps of the run, whatever their error.
+        let looser = if self.is_dictated(control) { LOOSER.powi(2) } else { LOOSER };
         let (model, GlobalErrorControl { error, judged, .. }) = (self.context.model, &mut *control);
         judged.recorder = std::mem::replace(&mut self.recorder, Recorder::new(model, self.wanted.where_due()));
         self.recorder.is_comparison = true;
         judged.warnings = std::mem::take(&mut self.workspace.warnings);
         judged.seen = [self.workspace.rotation_drift, self.workspace.joint_violation];
         judged.stopped = self.stop_watch.as_ref().is_some_and(StopWatch::is_reached);
-        self.follow(error.tolerance * LOOSER, Some(2.0 * judged.run.longest()));
+        self.follow(error.tolerance * looser, Some(2.0 * judged.run.longest()));
         self.recorder.most_steps = 2 * judged.recorder.own().steps + FEW;
         control.compared = if self.controller.looks_inside() { observer.times_to_compare() } else { Vec::new() };
         control.under_way = UnderWay::Comparison;
@@ -364,9 +364,15 @@ impl Run<'_> {
         let times = comparison_times(control.between).chain(control.compared.iter().copied());
         // A stage that has stopped is compared up to there.
         let until = if control.judged.stopped { control.judged.run.end() } else { f64::INFINITY };
-        let schedule = Schedule::of_trial(model, times, self.controller.looks_inside()).until(until);
+        let mut schedule = Schedule::of_trial(model, times, self.controller.looks_inside()).until(until);
+        let bounded = self.is_dictated(control).then(|| control.judged.run.clone());
+        if let Some(run) = &bounded {
+            schedule = schedule.with_ends(&run.ends).in_pairs();
+        }
+        let bound = bounded.as_ref().map(|run| LookAhead::bound(run, control.error.asked, self.context.size()));
         let mut unseen = Unseen::new(observer);
-        let mut trace = Trace::new(&mut unseen, model.solution.scheme.order() + 1, control.between);
+        let order = model.solution.scheme.order();
+        let mut trace = Trace::new(&mut unseen, order + 1, control.between).looking_ahead(bound);
         let (outcome, _) = self.once(&mut trace, &schedule, control);
         let comparison = trace.into_kept().with_events(self.recorder.events.met());
         let GlobalErrorControl { error, judged, .. } = &mut *control;

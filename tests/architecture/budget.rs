@@ -10,7 +10,7 @@ const BUDGET: [(&str, usize); 11] = [
     ("deck", 5508),
     ("import", 11_568),
     ("model", 29_797),
-    ("solve", 36_957),
+    ("solve", 36_991),
     ("results", 12_446),
     ("study", 4276),
     ("sweep", 1523),

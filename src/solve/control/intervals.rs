@@ -99,6 +99,19 @@ impl Schedule {
         self
     }
 
+    /// The schedule with intervals joined in pairs, also across kinks of loads. Jumps and times of comparison remain ends.
+    pub fn in_pairs(mut self) -> Schedule {
+        let mut joined = false;
+        self.intervals.dedup_by(|next, kept| {
+            joined = !(joined || kept.jump || kept.compared);
+            if joined {
+                *kept = Interval { from: kept.from, ..*next };
+            }
+            joined
+        });
+        self
+    }
+
     /// The schedule with further ends of steps, in order.
     pub fn with_ends(mut self, ends: &[f64]) -> Schedule {
         let divided = |interval: &Interval| {

@@ -82,6 +82,12 @@ impl Kept {
         if self.meets_events(other) { apart.min(own.lengths_apart(&theirs)).min(EVENTFUL) } else { apart }
     }
 
+    /// The ratio of the error of a run with steps twice as long to the error of this one, at most.
+    pub(super) fn most_apart(&self) -> f64 {
+        let apart = 2_f64.powf(f64::from(self.power - 1) * SLOPE);
+        if self.met_events { apart.min(EVENTFUL) } else { apart }
+    }
+
     /// True where this run or another has met events.
     pub fn meets_events(&self, other: &Kept) -> bool {
         self.met_events || other.met_events

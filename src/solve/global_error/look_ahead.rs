@@ -23,6 +23,8 @@ pub struct LookAhead<'o> {
     size: ModelSize,
     /// True if the run may end early.
     may_end: bool,
+    /// True if the run is a comparison run across kinks, of the run that stands here as pilot run.
+    bound: bool,
     /// The tolerance of the first steps, that of later ones, and a new one that the controller has not received yet.
     first: f64,
     tolerance: f64,
@@ -38,14 +40,34 @@ pub struct LookAhead<'o> {
     predicted: Option<f64>,
 }
 
-keep!(LookAhead<'_> { first, tolerance, changed, least, time, excess, looked, predicted } without { pilot, asked, size, may_end });
+keep!(LookAhead<'_> { first, tolerance, changed, least, time, excess, looked, predicted } without { pilot, asked, size, may_end, bound });
 
 impl<'o> LookAhead<'o> {
     /// Nothing predicted yet of a run with this tolerance, whose error is to be as asked.
     pub fn new(pilot: &'o Kept, (asked, tolerance): (f64, f64), size: ModelSize, may_end: bool) -> Self {
         let (time, looked) = (pilot.between[0], pilot.between[0]);
-        let (first, least, changed, excess, predicted) = (tolerance, tolerance, None, 0.0, None);
-        LookAhead { pilot, asked, size, may_end, first, tolerance, changed, least, time, excess, looked, predicted }
+        let (first, least, changed, excess, predicted, bound) = (tolerance, tolerance, None, 0.0, None, false);
+        LookAhead {
+            pilot,
+            asked,
+            size,
+            may_end,
+            bound,
+            first,
+            tolerance,
+            changed,
+            least,
+            time,
+            excess,
+            looked,
+            predicted,
+        }
+    }
+
+    /// Ends a comparison run with steps twice as long across kinks where its difference no longer bounds the error of `run`. No order holds across a
+    /// kink, which adds an error. So the ratio of both errors is at least that of smooth loads.
+    pub fn bound(run: &'o Kept, asked: f64, size: ModelSize) -> Self {
+        LookAhead { bound: true, ..LookAhead::new(run, (asked, asked), size, true) }
     }
 
     /// The predicted error of a run that is to end early.
@@ -77,6 +99,13 @@ impl<'o> LookAhead<'o> {
 
     /// Judges the run at one of its times of comparison.
     pub fn look(&mut self, run: &Kept) {
+        if self.bound {
+            // The root mean square over all times is at least this part of that so far.
+            let part = (run.times as f64 / COMPARISONS as f64).sqrt();
+            let least = run.difference_over(self.pilot, self.size, run.times) * part / (self.pilot.most_apart() - 1.0);
+            self.predicted = (least > WITHIN * self.asked).then_some(least);
+            return;
+        }
         if !(PREDICTED_AT..COMPARISONS).contains(&run.times) {
             return;
         }
