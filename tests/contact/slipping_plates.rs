@@ -86,19 +86,29 @@ fn bolted_plates_slip_alike_on_meshes_that_meet_and_on_others() {
 }
 
 /// Plates of 4 mm on a contact of 1e10, which slips after 8 nm: no step is shortened, and the resultant of all points leans by the angle of friction
-/// against the normal of the joint, which turns with the nut.
+/// against the normal of the joint, which turns with the nut. Beyond the nut the plate bends, the less the finer the mesh is: measured 4e-4 and 7e-5
+/// as the joint breaks loose, then 1e-4 and 2e-5.
 #[test]
 fn thin_plates_slip_on_a_stiff_contact() {
-    let done = go(&plates(0.0025, "0.004", "1e10"), &mut |frame: &Frame| {
+    slip_as_a_whole(&plates(0.0025, "0.004", "1e10"), (10, 10), 6e-4);
+    // On the finer mesh most points are at first touch as the bolt is tightened.
+    let finer =
+        plates(0.0025, "0.004", "1e10").replace("[8, 4]", "[12, 6]").replace("end_time = 2.0", "end_time = 1.2");
+    slip_as_a_whole(&finer, (10, 2), 1e-4);
+}
+
+/// Runs plates, which are tightened in so many steps and pulled in so many, and compares the slip load within an angle.
+fn slip_as_a_whole(deck: &str, steps: (usize, usize), within: f64) {
+    let done = go(deck, &mut |frame: &Frame| {
         let f = frame.derived.contacts[0].f;
         let nut = &frame.state.nodes[frame.model.bodies[1].node];
         vec![frame.state.time, f.x.abs().atan2(f.z.abs()), log(&nut.rotation).y.abs()]
     });
     assert!(matches!(done.outcome, Outcome::Done), "{:?}", done.outcome);
-    let pulled: Vec<_> = done.rows.iter().filter(|row| row[0] > 1.0 + 1e-9).collect();
-    assert_eq!(pulled.len(), 10, "steps are shortened");
+    let (tightened, pulled): (Vec<_>, Vec<_>) =
+        done.rows.iter().filter(|row| row[0] > 0.0).partition(|row| row[0] < 1.0 + 1e-9);
+    assert_eq!((tightened.len(), pulled.len()), steps, "steps are shortened");
     for row in pulled {
-        // Beyond the nut the plate bends: measured 4e-4 as the joint breaks loose, then 1e-4.
-        assert!((row[1] + row[2] - 0.2_f64.atan()).abs() < 6e-4, "{row:?}");
+        assert!((row[1] + row[2] - 0.2_f64.atan()).abs() < within, "{row:?}");
     }
 }

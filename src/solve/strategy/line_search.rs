@@ -20,16 +20,22 @@ pub struct LineSearch {
     multipliers: Vec<f64>,
     /// Work of the residual before the correction along it.
     at_start: f64,
+    /// The current part of the correction. The work changes its sign between `low` and `high`, each a part and its work.
+    part: f64,
+    low: [f64; 2],
+    high: Option<[f64; 2]>,
+    /// True where `low` moves up: with contacts.
+    encloses: bool,
     tries: usize,
     /// Relative residual before the correction.
     size: f64,
 }
 
-keep!(LineSearch { residual, correction, gaps, before, multipliers, at_start, tries, size });
+keep!(LineSearch { residual, correction, gaps, before, multipliers, at_start, part, low, high, tries, size } without { encloses });
 
 impl LineSearch {
-    /// Room for corrections of this many nodal unknowns, nodes and multipliers.
-    pub fn new(directions: usize, nodes: usize, multipliers: usize) -> Self {
+    /// Room for corrections of this many nodal unknowns, nodes and multipliers. Where contacts may close, the search encloses the zero of the work.
+    pub fn new([directions, nodes, multipliers]: [usize; 3], encloses: bool) -> Self {
         LineSearch {
             residual: vec![0.0; directions],
             correction: vec![0.0; directions],
@@ -37,6 +43,10 @@ impl LineSearch {
             before: vec![Vec6::zeros(); nodes],
             multipliers: vec![0.0; multipliers],
             at_start: 0.0,
+            part: 1.0,
+            low: [0.0; 2],
+            high: None,
+            encloses,
             tries: TRIES,
             size: f64::INFINITY,
         }
@@ -62,6 +72,7 @@ impl LineSearch {
         self.before.iter_mut().zip(increments).for_each(|(before, increment)| *before = increment.q);
         self.multipliers.copy_from_slice(multipliers);
         self.at_start = dot(&self.residual, correction);
+        (self.part, self.low, self.high) = (1.0, [0.0, self.at_start], None);
         self.tries = 0;
     }
 
@@ -87,9 +98,8 @@ impl LineSearch {
         if self.at_start <= self.work_of_joints(multipliers) {
             return false;
         }
-        // The secant gives the zero of the work along the line; half the correction is taken where the work grew.
-        let zero = self.at_start / (self.at_start - work);
-        let factor = if work < 0.0 { zero.clamp(SECANT[0], SECANT[1]) } else { 0.5 };
+        let factor = self.next_factor(work);
+        self.part *= factor;
         for (increment, before) in increments.iter_mut().zip(&self.before) {
             increment.q = before + factor * (increment.q - before);
         }
@@ -98,6 +108,19 @@ impl LineSearch {
         }
         self.tries += 1;
         true
+    }
+
+    /// The factor on the current part of the correction, which has this work. Contacts that close or stick become a thousand times stiffer within
+    /// a short way, and the secant falls short of the zero. The bracket then moves up. Without contacts half of the part takes fewer iterations.
+    fn next_factor(&mut self, work: f64) -> f64 {
+        match (work < 0.0, self.high) {
+            (true, _) => self.high = Some([self.part, work]),
+            (false, Some(_)) if self.encloses => self.low = [self.part, work],
+            // The work grew.
+            (false, _) => return 0.5,
+        }
+        let ([low, left], [high, beyond]) = (self.low, self.high.unwrap_or([self.part, work]));
+        low / self.part + (left / (left - beyond)).clamp(SECANT[0], SECANT[1]) * ((high - low) / self.part)
     }
 
     /// The largest work that joints can have done as the correction closed them, with multipliers before it or `after`.

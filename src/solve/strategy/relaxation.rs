@@ -37,7 +37,10 @@ impl Relaxation {
             .map(|row| if row.is_rotational() { length } else { 1.0 });
         let mixes = system.yields() && method != Method::TangentStiffness;
         Some(Relaxation {
-            line_search: LineSearch::new(plan.dofs.nodal_dofs().len(), model.nodes.len(), system.multipliers()),
+            line_search: LineSearch::new(
+                [plan.dofs.nodal_dofs().len(), model.nodes.len(), system.multipliers()],
+                model.parts.iter().any(|part| part.kind().is_unilateral()),
+            ),
             anderson: mixes.then(|| Anderson::new(weights.chain(gaps))),
         })
     }

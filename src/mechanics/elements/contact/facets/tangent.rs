@@ -158,7 +158,8 @@ const STEPS: [f64; 2] = [1e-6, 1e-10];
 const BEFORE_KINK: f64 = 0.01;
 
 /// Friction by central differences of its forces, each motion together with its rate. A stiff contact slips after nanometres, and steps beyond would
-/// mix sticking with slipping. A sticking pair is kept sticking in the differences: a pair at first touch would otherwise slip at the smallest step.
+/// mix sticking with slipping. A sticking pair is kept sticking in the differences, and so is one at first touch: it has no force yet and would slip
+/// at the smallest step, in a direction that is rounding.
 fn add_friction(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight: f64, K: &mut [f64]) {
     let count = pair.point.count + pair.facet.corners;
     let mut local = [Node::at_rest(Vec3::zeros()); MOST_OF_PAIR + MOST_CORNERS + 2];
@@ -181,7 +182,8 @@ fn add_friction(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight
     let left = Facet { nodes: left, ..pair.kept.clone() };
     let kept = if std::ptr::eq(pair.kept, pair.facet) { &facet } else { &left };
     let force = pair.force(place, nodes);
-    let slipping = force.friction.as_ref().filter(|friction| friction.slip != Vec3::zeros());
+    let is_pressed = force.pressed() > 0.0;
+    let slipping = force.friction.as_ref().filter(|friction| is_pressed && friction.slip != Vec3::zeros());
     let to_kink = slipping.map_or(force.normal.force, |friction| friction.T.norm()) / pair.law.stiffness;
     let slips = slipping.is_some();
     let pair = FacetPair { point, facet: &facet, kept, kept_line, sticks: !slips, ..pair.clone() };
