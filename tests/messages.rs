@@ -860,7 +860,9 @@ fn mass_scaling() {
     };
     let stages = |own: &str| portal(&[(analysis, &(scaled("1e-4") + &stage("first", "") + &stage("second", own)))]);
     assert_eq!(stages("").trim(), "");
-    assert_snapshot!("mass_scaling_in_one_stage", stages("integrator = { scheme = \"newmark\" }\n"));
+    assert_eq!(stages("integrator = { scheme = \"newmark\" }\n").trim(), "");
+    let other = "integrator = { scheme = \"central-difference\", mass_scaling_step = 2e-4 }\n";
+    assert_snapshot!("mass_scaling_in_one_stage", stages(other));
     let central = |word: &str| format!("[integrator]\nscheme = \"central-difference\"\nmass_scaling = \"{word}\"\n");
     assert_snapshot!("mass_scaling_off_and_step", portal_and(&(central("off") + "mass_scaling_step = 1e-4\n")));
     assert_snapshot!(

@@ -4,7 +4,7 @@ use super::console::counted;
 use base::names::{instant, short, to_digits};
 use deck::parts::PartKind;
 use mechanics::integrators::stability_limited;
-use model::{AnalysisKind, ModeExtent, Model, ModesAsked, RotaryInertia, StepLength};
+use model::{AnalysisKind, ElementMasses, ModeExtent, Model, ModesAsked, StepLength};
 use solve::modes::EigenMode;
 use solve::plan::Plan;
 use solve::system::System;
@@ -150,7 +150,7 @@ pub fn alternative(model: &Model, threads: usize) -> Option<String> {
     }
     let mut by_central = model.clone();
     by_central.solution.scheme = stability_limited();
-    by_central.solution.rotary_inertia = RotaryInertia::default();
+    by_central.solution.masses = ElementMasses::Rotary;
     by_central.analysis.step_length = StepLength::StabilityLimited { fraction: model.stable_fraction() };
     let system = System::new(&by_central).ok()?;
     let plan = Plan::new(&by_central, &system, threads);

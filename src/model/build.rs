@@ -15,8 +15,8 @@ use super::cases::cases;
 use super::contacts::contacts;
 use super::contacts::points::connect_touching_points;
 use super::data::{
-    Analysis, ArcLength, Cadence, Constraints, Contact, Damping, Expect, FieldFiles, Iteration, Joint, Load, LoadCases,
-    Mass, MeshFile, Model, Origin, Part, RecordFile, Rigid, RunStage, Solution, StepLength, Study,
+    Analysis, ArcLength, Cadence, Constraints, Contact, Damping, ElementMasses, Expect, FieldFiles, Iteration, Joint,
+    Load, LoadCases, Mass, MeshFile, Model, Origin, Part, RecordFile, Rigid, RunStage, Solution, StepLength, Study,
 };
 use super::environment::{AccelerationFields, damping, environment, gravity};
 use super::equations::equations;
@@ -63,7 +63,7 @@ use super::procedure::linear::{check_linear, make_elastic};
 use super::procedure::mass_scaling::check_mass_scaling;
 use super::procedure::modes::{check_modal, hold_at_start, refuse_power_dampers};
 use super::procedure::response::{add_expected, check_harmonic};
-use super::procedure::scaled_masses::rotary_inertia;
+use super::procedure::scaled_masses::masses as element_masses;
 use super::procedure::stops::{self, NamedActors};
 use super::procedure::study::study;
 use super::procedure::{analysis, check_explicit};
@@ -277,8 +277,13 @@ fn model<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, files: Files<'d>, 
     let acting = act(&mut scene, &mut joined, efforts, report);
     let asked = ask(&scene, &procedure.scheme, acting.actors, &joined, report);
     check_scaled_loads(&scene, asked.arc_length.as_ref(), (&acting.loads.nodal, &joined.topology), report);
-    let mesh = check(&scene, &procedure.scheme, groups, &joined, report);
-    let JoinedNodes { masses, links, joints, amplitudes, mut topology } = joined;
+    let masses = match stage {
+        Some(stage) => stage.sequence.masses(),
+        None => element_masses(deck.integrator.as_ref()),
+    };
+    let masses = masses.unwrap_or(ElementMasses::OfSections);
+    let mesh = check(&scene, (&procedure.scheme, masses), groups, &joined, report);
+    let JoinedNodes { masses: point_masses, links, joints, amplitudes, mut topology } = joined;
     let contacts = acting.contacts;
     let linked = links.list.iter().map(|link| link.ends).chain(contacts.iter().flat_map(|contact| contact.pairs()));
     check_sound(&scene, &amplitudes, &topology, Ties::new(&topology, &joints, linked), report);
@@ -293,18 +298,10 @@ fn model<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, files: Files<'d>, 
     let model = Model {
         title: deck.title.as_ref().map(|title| title.value.clone()).unwrap_or_default(),
         analysis,
-        solution: Solution {
-            scheme: procedure.scheme,
-            scheme_is_chosen: false,
-            rotary_inertia: rotary_inertia(
-                deck,
-                stage.is_none_or(|stage| stage.sequence.moves_by_central_differences()),
-            ),
-            iteration,
-        },
+        solution: Solution { scheme: procedure.scheme, scheme_is_chosen: false, masses, iteration },
         nodes,
         bodies: scene.bodies,
-        masses,
+        masses: point_masses,
         stiffnesses: scene.parts.stiffnesses,
         stresses: scene.parts.stresses,
         parts: scene.parts.list.into_iter().chain(links).chain(contacts.into_iter().map(Part::from)).collect(),
@@ -499,7 +496,7 @@ fn points(deck: &Deck, nodes: &mut Nodes) {
 /// Checks the whole for suspicious input; returns the record of the mesh.
 fn check(
     scene: &Scene,
-    scheme: &Arc<dyn Scheme>,
+    (scheme, masses): (&Arc<dyn Scheme>, ElementMasses),
     groups: Groups,
     JoinedNodes { joints, amplitudes, topology, .. }: &JoinedNodes,
     report: &mut Report,
@@ -528,7 +525,7 @@ fn check(
     }
     check_explicit(deck, analysis, &**scheme, &parts.list, report);
     if analysis.is_dynamic() {
-        check_mass_scaling(scene, &**scheme, report);
+        check_mass_scaling(scene, masses, report);
     }
     check_units(deck, report);
     check_angles(deck, report);

@@ -57,7 +57,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
         },
         solution: Solution {
             scheme_is_chosen: false,
-            rotary_inertia: rdsolve::model::RotaryInertia::Off,
+            masses: rdsolve::model::ElementMasses::OfSections,
             scheme: Arc::new(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
             iteration: Iteration {
                 method: Method::TangentStiffness,

@@ -71,7 +71,7 @@ pub fn model() -> Model {
         },
         solution: Solution {
             scheme_is_chosen: false,
-            rotary_inertia: rdsolve::model::RotaryInertia::Off,
+            masses: rdsolve::model::ElementMasses::OfSections,
             scheme: Arc::new(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
             iteration: Iteration {
                 method: Method::TangentStiffness,

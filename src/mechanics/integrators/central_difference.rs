@@ -72,8 +72,4 @@ impl Scheme for CentralDifference {
     fn coefficients(&self, dt: f64) -> Coefficients {
         Coefficients::verlet(dt, self.rotation)
     }
-
-    fn mass_scaling_step(&self) -> Option<f64> {
-        self.mass_scaling_step
-    }
 }

@@ -41,11 +41,6 @@ pub trait Scheme: fmt::Debug + Send + Sync {
         None
     }
 
-    /// Critical time step of all elements after mass scaling; `None` without mass scaling.
-    fn mass_scaling_step(&self) -> Option<f64> {
-        None
-    }
-
     /// True where a step solves for nothing but M a = r: there is no stiffness matrix.
     fn is_explicit(&self) -> bool {
         matches!(self.stepping(), Stepping::Verlet | Stepping::RungeKutta(_))

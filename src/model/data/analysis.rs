@@ -4,7 +4,7 @@ use super::modes::{ModeExtent, ModesAsked};
 use super::response::{ResponseAsked, ResponseMethod};
 use super::stage::RunStage;
 use super::step_length::{FIRST_STEP, StepLength};
-use deck::analysis::{Gyroscopic, Method, RotaryInertia, Update};
+use deck::analysis::{Gyroscopic, Method, Update};
 use mechanics::integrators::Scheme;
 use std::sync::Arc;
 
@@ -158,10 +158,21 @@ pub struct Solution {
     pub scheme: Arc<dyn Scheme>,
     /// True where the deck names none and its automatic steps leave the choice.
     pub scheme_is_chosen: bool,
-    /// The rotary inertia of shells and beams with central differences; other schemes keep that of the sections.
-    pub rotary_inertia: RotaryInertia,
+    /// The masses of shells, bars and beams in motion, in all dynamic stages the same.
+    pub masses: ElementMasses,
     /// The equilibrium iteration.
     pub iteration: Iteration,
+}
+
+/// The masses of deformable elements in motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ElementMasses {
+    /// Those of the sections.
+    OfSections,
+    /// Rotary inertia is raised, so that thickness does not limit steps of central differences.
+    Rotary,
+    /// Rotary inertia and mass are raised, so that each element has at least this critical time step of central differences.
+    ForStep(f64),
 }
 
 /// The solution of the nonlinear equations of a step.

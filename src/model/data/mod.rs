@@ -28,7 +28,7 @@ mod step_length;
 mod study;
 mod superelement;
 
-pub use analysis::{Analysis, AnalysisKind, Iteration, Solution};
+pub use analysis::{Analysis, AnalysisKind, ElementMasses, Iteration, Solution};
 pub use bar::Bar;
 pub use beam::{Beam, BeamElement, SectionAt, VariedElement};
 pub use case::{CaseActor, CaseTerm, Envelope, LoadCase, LoadCases, YieldLimit};
@@ -37,7 +37,7 @@ pub use constraints::{
     JointOrigin, PrescribedMotion, Restraint,
 };
 pub use contact::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
-pub use deck::analysis::{Gyroscopic, Method, RotaryInertia, Update};
+pub use deck::analysis::{Gyroscopic, Method, Update};
 pub use deck::output::{ContactRows, SectionPlaces};
 pub use deck::part_table::MassKind;
 pub use deck::parts::{PartIndex, PartKind};

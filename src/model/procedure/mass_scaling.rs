@@ -1,6 +1,6 @@
 //! Conflicts of mass scaling with other input.
 
-use crate::data::{FEWEST_STEPS, MassKind, SAFE, SAFE_WHERE_STRUCK, StepLength};
+use crate::data::{ElementMasses, FEWEST_STEPS, MassKind, SAFE, SAFE_WHERE_STRUCK, StepLength};
 use crate::procedure::scaled_masses::KEY;
 use crate::report::Report;
 use crate::scene::Scene;
@@ -9,14 +9,15 @@ use base::diagnostic::Span;
 use base::names::short;
 use deck::Deck;
 use deck::analysis::RotaryInertia;
-use mechanics::integrators::Scheme;
 
 /// Reports conflicts of mass scaling, once all parts are known.
-pub fn check_mass_scaling(scene: &Scene, scheme: &dyn Scheme, report: &mut Report) {
+pub fn check_mass_scaling(scene: &Scene, masses: ElementMasses, report: &mut Report) {
     let (deck, parts) = (scene.deck, &scene.parts.list);
-    check_word(deck, scheme, report);
-    let place = deck.integrator.as_ref().and_then(|integrator| integrator.values.place(KEY));
-    let (Some(step), Some(place)) = (scheme.mass_scaling_step(), place) else { return };
+    let ElementMasses::ForStep(step) = masses else { return };
+    check_word(deck, report);
+    check_ground_and_damping(deck, step, report);
+    // Other stages than those with central differences have the masses, but not the key.
+    let Some(place) = deck.integrator.as_ref().and_then(|integrator| integrator.values.place(KEY)) else { return };
     let kinds = || parts.iter().filter_map(|part| Some((part, part.mass_kind()?)));
     if let Some((part, _)) = kinds().find(|(_, kind)| *kind == MassKind::Consistent) {
         let message = format!("`{KEY}` does not go with the consistent masses of `{}`", part.name());
@@ -29,6 +30,11 @@ pub fn check_mass_scaling(scene: &Scene, scheme: &dyn Scheme, report: &mut Repor
         let message = format!("`{KEY}` raises masses of beams, bars and shells, but none of them has any");
         report.error_with::<()>(place, message, "bodies, point masses, links and contacts keep their masses");
     }
+    check_length(scene, (step, place), report);
+}
+
+/// Reports accelerations of the ground and damping that do not go with added mass.
+fn check_ground_and_damping(deck: &Deck, step: f64, report: &mut Report) {
     for base in deck.environment.iter().flat_map(|environment| &environment.base_acceleration) {
         let message = "accelerations of the ground do not go with mass scaling";
         let hint =
@@ -41,13 +47,12 @@ pub fn check_mass_scaling(scene: &Scene, scheme: &dyn Scheme, report: &mut Repor
         let message = format!("no mass makes a step of {} stable with this `{key}`", short(step));
         report.error_with::<()>(&alpha.span, message, format!("below {} one does", short(1.0 / step)));
     }
-    check_length(scene, (step, place), report);
 }
 
 /// Reports a step of mass scaling where masses are to be kept.
-fn check_word(deck: &Deck, scheme: &dyn Scheme, report: &mut Report) {
+fn check_word(deck: &Deck, report: &mut Report) {
     let word = deck.integrator.as_ref().and_then(|integrator| integrator.mass_scaling.as_ref());
-    if let Some(word) = word.filter(|word| word.value == RotaryInertia::Off && scheme.mass_scaling_step().is_some()) {
+    if let Some(word) = word.filter(|word| word.value == RotaryInertia::Off) {
         let message = format!("`mass_scaling = \"off\"` contradicts `{KEY}`, which raises rotary inertia and mass");
         report.error_with::<()>(&word.span, message, "remove one of them");
     }

@@ -69,14 +69,13 @@ fn check_modes<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
 
 /// Reports a motion that would go on with other masses than it has begun with.
 fn check_masses<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
-    let moves = sequence.stages.iter().filter(|stage| stage.kind == StageKind::Dynamic);
-    let (mut first, all_central) = (None, sequence.moves_by_central_differences());
-    for stage in moves {
-        let given = masses(sequence.integrator(stage), all_central);
-        if *first.get_or_insert(given) != given {
+    let known = sequence.masses();
+    for stage in sequence.stages.iter().filter(|stage| stage.kind == StageKind::Dynamic) {
+        let given = masses(sequence.integrator(stage));
+        if given.is_some() && given != known {
             let place = stage.table.integrator.as_ref().map_or(&stage.table.span, |own| &own.span);
             let message = format!("stage `{}` would go on with other masses than the stage before", stage.name);
-            let hint = format!("the same scheme, `mass_scaling` and `{KEY}` in all dynamic stages, or in none");
+            let hint = format!("give the same `mass_scaling` and `{KEY}` in all stages with central differences");
             report.error_with::<()>(place, message, hint);
         }
     }

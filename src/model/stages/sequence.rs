@@ -1,6 +1,7 @@
 //! The stages of a deck in order: their times, and the tables active in each.
 
-use crate::procedure::scaled_masses::is_central;
+use crate::data::ElementMasses;
+use crate::procedure::scaled_masses::masses;
 use crate::report::{Owner, Report};
 use crate::shells::edges::Bulges;
 use crate::values::keys;
@@ -164,10 +165,11 @@ impl<'d> StageSequence<'d> {
         stage.table.integrator.as_ref().or(self.whole.integrator.as_ref())
     }
 
-    /// True where all dynamic stages have central differences.
-    pub fn moves_by_central_differences(&self) -> bool {
+    /// The masses of elements in all dynamic stages: those of the first with central differences, because a motion goes on with the masses it
+    /// has. `None` without such a stage.
+    pub fn masses(&self) -> Option<ElementMasses> {
         let mut moves = self.stages.iter().filter(|stage| stage.kind == StageKind::Dynamic);
-        moves.all(|stage| self.integrator(stage).is_some_and(is_central))
+        moves.find_map(|stage| masses(self.integrator(stage)))
     }
 
     pub fn position(&self, name: &str) -> Option<usize> {

@@ -8,10 +8,9 @@ use super::parts::{LumpedElement, NodalMasses, NodeSpacing, assembled};
 use crate::tolerances::element_stability::{BORDER, OF_USE};
 use base::math::{Mat3, Vec3};
 use mechanics::elements::Moduli;
-use mechanics::integrators::Stepping;
 use mechanics::integrators::stability_limit::{largest_stiffness, longest_step};
 use mechanics::state::{Configuration, Node};
-use model::{AnalysisKind, MassKind, Model, Part, PartKind, RotaryInertia};
+use model::{AnalysisKind, ElementMasses, MassKind, Model, Part, PartKind};
 
 /// Number of elements whose tangents are formed at once.
 const CHUNK: usize = 64;
@@ -72,9 +71,12 @@ impl MassScaling {
             return None;
         }
         let elements = Elements::new(model, x);
-        let (critical_step, of_sections) = match model.solution.scheme.mass_scaling_step() {
-            Some(step) => (step, None),
-            None => elements.raised(groups).map(|[own, raised]| ((1.0 - BORDER) * raised, Some(own)))?,
+        let (critical_step, of_sections) = match model.solution.masses {
+            ElementMasses::OfSections => return None,
+            ElementMasses::ForStep(step) => (step, None),
+            ElementMasses::Rotary => {
+                elements.raised(groups).map(|[own, raised]| ((1.0 - BORDER) * raised, Some(own)))?
+            }
         };
         let mass = inertias.iter().map(|inertia| inertia.mass).sum();
         let none = vec![Vec::new(); model.parts.len()];
@@ -179,7 +181,7 @@ impl ScaledPart {
 /// The element with the shortest critical time step, in the configuration at t = 0 and with Rayleigh damping; `None` without elements that
 /// have lumped mass. Of elements with `mass_scaling_step`, which have one step at least, none is named.
 pub fn governing(model: &Model, groups: &[Group], is_raised: bool) -> Option<GoverningElement> {
-    if model.solution.scheme.mass_scaling_step().is_some() {
+    if matches!(model.solution.masses, ElementMasses::ForStep(_)) {
         return None;
     }
     let x: Vec<Vec3> = model.nodes.iter().map(|node| node.x).collect();
@@ -274,13 +276,8 @@ impl<'m> Elements<'m> {
         found
     }
 
-    /// The shortest critical time steps with the rotary inertia of the sections and with raised one; `None` where that is of no use or not
-    /// wanted.
+    /// The shortest critical time steps, first with the rotary inertia of the sections, then with raised inertia. `None` without a gain.
     fn raised(&self, groups: &[Group]) -> Option<[f64; 2]> {
-        let is_central = matches!(self.model.solution.scheme.stepping(), Stepping::Verlet);
-        if !is_central || self.model.solution.rotary_inertia == RotaryInertia::Off {
-            return None;
-        }
         let own = self.governing(groups, None)?.step;
         let raised = self.governing(groups, Some(1.0))?.step;
         (raised > (1.0 + OF_USE) * own).then_some([own, raised])

@@ -2,8 +2,9 @@
 
 use super::scenes::dynamic;
 use super::{CENTRAL, EIGHT, WILSON, balance_of, deck, difference, scene};
-use crate::support::{node, position, run_to_the_end};
-use rdsolve::diagnostic::Diagnostic;
+use crate::support::{node, position, read_stages, run_source, run_to_the_end};
+use rdsolve::diagnostic::{Diagnostic, Source};
+use rdsolve::model::Model;
 use rdsolve::plan::Plan;
 use rdsolve::system::System;
 
@@ -188,4 +189,39 @@ interval = 0.1
     assert!(off < 1e-8, "{off}");
     // At 0.3 rad a step, of second order; moments that met the predicted velocities alone made two thousand times what there was.
     assert!(guided.generated < 0.05 * guided.available, "{guided:?}");
+}
+
+/// Stages with other schemes have the masses of the stage with central differences, whichever comes first: its critical step is that of a deck without
+/// them, and no kinetic energy appears as one stage follows the other.
+#[test]
+fn all_dynamic_stages_have_the_masses_of_central_differences() {
+    let plate = |head: &str| {
+        let corners = "a = [0.0, 0.0, 0.0]\nb = [0.4, 0.0, 0.0]\nc = [0.4, 0.4, 0.0]\nd = [0.0, 0.4, 0.0]\n";
+        format!(
+            "{head}[materials.steel]\nmodel = \"elastic\"\nyoungs_modulus = 210e9\npoisson_ratio = 0.3\ndensity = 7850.0\n[points]\n{corners}\
+             [[shells]]\nname = \"plate\"\ncorners = [\"a\", \"b\", \"c\", \"d\"]\nelements = [4, 4]\nthickness = 0.001\nmaterial = \"steel\"\n\
+             [[initial]]\nat = \"plate\"\nangular_velocity = [0.0, 3.0, 0.0]\n"
+        )
+    };
+    let of = |model: &Model| System::new(model).unwrap().mass_scaling().map(|scaling| scaling.critical_step);
+    let alone = of(&scene(&plate(&dynamic("1e-3", "\"auto\"", "central-difference")), &[])).expect("raised inertia");
+    let stage =
+        |name: &str, of: &str| format!("[[stages]]\nname = \"{name}\"\nkind = \"dynamic\"\nduration = 1e-3\n{of}\n");
+    let fall = stage("fall", "time_step = 1e-4\nintegrator = { scheme = \"newmark\" }");
+    for key in ["", ", mass_scaling_step = 1e-5"] {
+        let blow =
+            stage("blow", &format!("time_step = \"auto\"\nintegrator = {{ scheme = \"central-difference\"{key} }}"));
+        for stages in [fall.clone() + &blow, blow.clone() + &fall] {
+            let source = Source::new("plate.toml", plate(&stages), &[]);
+            let steps: Vec<Option<f64>> = read_stages(&source).iter().map(of).collect();
+            assert_eq!(steps, [Some(if key.is_empty() { alone } else { 1e-5 }); 2], "{key}");
+            let done = run_source(&source, &mut |frame| {
+                vec![frame.state.time, frame.derived.energy.expect("energies").kinetic]
+            });
+            let at_boundary: Vec<f64> =
+                done.rows.iter().filter(|row| (row[0] - 1e-3).abs() < 1e-9).map(|row| row[1]).collect();
+            let [before, after] = at_boundary[..] else { panic!("{at_boundary:?}") };
+            assert!((before - after).abs() < 1e-12 * before, "{before} {after}");
+        }
+    }
 }

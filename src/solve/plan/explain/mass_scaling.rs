@@ -5,6 +5,7 @@ use crate::system::{MassScaling, ScaledPart, System};
 use crate::tolerances::explained_mass_scaling::MUCH;
 use base::diagnostic::Diagnostic;
 use base::names::{short, to_digits};
+use mechanics::integrators::Stepping;
 use model::Model;
 
 /// Number of parts that are listed.
@@ -14,6 +15,9 @@ const LISTED: usize = 5;
 pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
     let Some(scaling) = system.mass_scaling() else { return };
     mass_added(scaling).into_iter().for_each(|(label, line)| text.add(label, line));
+    if !matches!(model.solution.scheme.stepping(), Stepping::Verlet) {
+        text.notes.push("elements have the masses of the stages with central differences, because a motion goes on with the masses it has".into());
+    }
     let [_, heavier, rotary] = counts(scaling);
     if heavier > 0 && model.loading.gravity.norm() > 0.0 {
         text.notes
