@@ -1,5 +1,6 @@
 //! The time that a run will take on this machine, by its first steps, and its first natural period.
 
+use super::automatic_steps::strikes_deformable;
 use super::console::counted;
 use base::names::{instant, short, to_digits};
 use deck::parts::PartKind;
@@ -143,9 +144,14 @@ pub fn effort(model: &Model, system: &System, plan: &Plan) -> Option<String> {
 /// schemes resolve a blow by short steps.
 pub fn alternative(model: &Model, threads: usize) -> Option<String> {
     let has_part = |is: fn(PartKind) -> bool| model.parts.iter().any(|part| is(part.kind()));
-    let strikes = has_part(PartKind::is_unilateral) && has_part(PartKind::is_deformable);
     let fits = !has_part(PartKind::is_floating) && model.damping.modal.is_empty();
-    if !(model.analysis.is_dynamic() && model.solution.scheme_is_chosen && strikes && fits) {
+    let follows_error = matches!(model.analysis.step_length, StepLength::ErrorControlled { .. });
+    if !(model.analysis.is_dynamic()
+        && model.solution.is_chosen()
+        && follows_error
+        && fits
+        && strikes_deformable(model))
+    {
         return None;
     }
     let mut by_central = model.clone();

@@ -3,14 +3,14 @@
 use base::names::to_digits;
 use mechanics::integrators::Stepping;
 use model::Model;
-use solve::system::{System, added_at, governing};
+use solve::system::{GoverningElement, System, added_at, governing};
 
 /// The multiples of the critical time step whose mass is told.
 const MULTIPLES: [f64; 3] = [2.0, 5.0, 10.0];
 
 /// The critical time step of the elements, and the element that governs it.
 pub fn limit_of_steps(model: &Model, system: &System) -> Option<(&'static str, String)> {
-    let found = governed(model).then(|| governing(model, &system.groups, system.mass_scaling().is_some())).flatten()?;
+    let found = governor(model, system)?;
     let part = &model.parts[found.part];
     let x = |node: &usize| model.nodes[*node].x;
     let nodes = part.nodes(found.element);
@@ -29,11 +29,7 @@ pub fn limit_of_steps(model: &Model, system: &System) -> Option<(&'static str, S
 
 /// The masses that `mass_scaling_step` would add for longer steps, a line for each. After one that more than doubles the mass there are no others.
 pub fn offers(model: &Model, system: &System) -> Vec<(&'static str, String)> {
-    let Some(found) =
-        governed(model).then(|| governing(model, &system.groups, system.mass_scaling().is_some())).flatten()
-    else {
-        return Vec::new();
-    };
+    let Some(found) = governor(model, system) else { return Vec::new() };
     let mass: f64 = system.inertias.iter().map(|inertia| inertia.weighing).sum();
     let offers = MULTIPLES.map(|multiple| (multiple, added_at(model, &system.groups, multiple * found.step)));
     let bearable = offers.iter().take_while(|(_, added)| *added < mass).count();
@@ -50,7 +46,8 @@ pub fn offers(model: &Model, system: &System) -> Vec<(&'static str, String)> {
     offers.into_iter().take(bearable + 1).enumerate().map(line).collect()
 }
 
-/// True where central differences move the scene.
-fn governed(model: &Model) -> bool {
-    model.analysis.is_dynamic() && matches!(model.solution.scheme.stepping(), Stepping::Verlet)
+/// The element with the shortest critical time step, where central differences move the scene.
+pub fn governor(model: &Model, system: &System) -> Option<GoverningElement> {
+    let is_governed = model.analysis.is_dynamic() && matches!(model.solution.scheme.stepping(), Stepping::Verlet);
+    is_governed.then(|| governing(model, &system.groups, system.mass_scaling().is_some())).flatten()
 }

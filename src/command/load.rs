@@ -1,5 +1,6 @@
 //! The way from the text of a deck to a model and a plan. Where it fails, whatever is wrong has been shown.
 
+use super::automatic_steps::{CENTRAL, choice, may_choose_central};
 use super::console::{complain, counted, show};
 use super::exit::Exit;
 use base::diagnostic::{Diagnostic, Source};
@@ -89,6 +90,8 @@ pub fn build(source: Source, sets: &[String]) -> Result<Loaded, (Vec<Diagnostic>
 
 /// As [`build`], of the deck that has been read from the source.
 pub fn build_read(deck: DeckRead, source: Source, sets: &[String]) -> Result<Loaded, (Vec<Diagnostic>, Source)> {
+    let analysis = deck.0.as_ref().and_then(|deck| deck.analysis.as_ref());
+    let asks_for_error = analysis.is_some_and(|of| of.error_tolerance.is_some() || of.accuracy.is_some());
     let (mut models, mut said) = model::build_read(deck, &source);
     if let Err(problems) = reduce(&mut models.iter_mut().collect::<Vec<_>>()) {
         said.extend(problems);
@@ -98,7 +101,7 @@ pub fn build_read(deck: DeckRead, source: Source, sets: &[String]) -> Result<Loa
     match models.next() {
         Some(model) => {
             let hash = hash(&source, sets, &model);
-            Ok(Loaded {
+            let loaded = Loaded {
                 model,
                 later: models.collect(),
                 mass_scaling: None,
@@ -106,10 +109,28 @@ pub fn build_read(deck: DeckRead, source: Source, sets: &[String]) -> Result<Loa
                 source,
                 sets: sets.to_vec(),
                 hash,
-            })
+            };
+            let central = if asks_for_error { None } else { by_central_differences(&loaded) };
+            Ok(central.unwrap_or(loaded))
         }
         None => Err((said, source)),
     }
+}
+
+/// The deck with central differences, if they are to move it.
+fn by_central_differences(loaded: &Loaded) -> Option<Loaded> {
+    let source = &loaded.source;
+    if !may_choose_central(&loaded.model) {
+        return None;
+    }
+    // In front of the others, so that the last ones still stand for options.
+    let sets: Vec<String> =
+        std::iter::once(CENTRAL).chain(source.sets.iter().map(|(_, set)| set.as_str())).map(str::to_owned).collect();
+    let source = Source::new(source.path.clone(), source.text.clone(), &sets).with_options(source.options.clone());
+    let mut central = build(source, &loaded.sets).ok()?;
+    let (system, _, _) = prepare_model(&mut central.model.clone(), 1).ok()?;
+    central.model.solution.choice = Some(choice(&central.model, &system)?);
+    Some(central)
 }
 
 /// True for a deck named `-`, which comes on standard input.

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod arguments;
+mod automatic_steps;
 mod check;
 mod checkpoints;
 mod compare;

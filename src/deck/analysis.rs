@@ -24,7 +24,7 @@ pub struct Analysis {
     /// "static"; with control = "displacement" the time at which loads without amplitude have their value, 1 by default.
     pub end_time: Maybe<f64>,
     /// Length of the time steps, above 0, or "auto": as long as `error_tolerance` allows, with central-
-    /// difference as long as is stable. With arc-length control the length of the first step, which sets the
+    /// difference as long as is stable. Without a scheme and an error, blows of deformable parts take central-difference. With arc-length control the length of the first step, which sets the
     /// arc length of the others. Required for "dynamic" without `accuracy` and for "static", without effect with control = "displacement".
     pub time_step: Maybe<NumberOrAuto>,
     /// Error of the results from time steps, iteration, mesh and contact stiffness together, relative to the largest change of each

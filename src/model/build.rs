@@ -298,7 +298,7 @@ fn model<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, files: Files<'d>, 
     let model = Model {
         title: deck.title.as_ref().map(|title| title.value.clone()).unwrap_or_default(),
         analysis,
-        solution: Solution { scheme: procedure.scheme, scheme_is_chosen: false, masses, iteration },
+        solution: Solution { scheme: procedure.scheme, choice: None, masses, iteration },
         nodes,
         bodies: scene.bodies,
         masses: point_masses,
@@ -560,7 +560,7 @@ fn with_arc_length(
 fn finish<'d>(mut model: Model, all_nodes: bool, deck: &'d Deck, report: &mut Report<'d>) -> Model {
     if deck.integrator.is_none() && matches!(model.analysis.step_length, StepLength::ErrorControlled { .. }) {
         model.solution.scheme = choose_scheme(&model);
-        model.solution.scheme_is_chosen = true;
+        model.solution.choice = Some("chosen for automatic steps".to_owned());
     }
     if model.analysis.step_length.is_automatic() && matches!(model.solution.scheme.stepping(), Stepping::Verlet) {
         model.analysis.step_length = StepLength::StabilityLimited { fraction: model.stable_fraction() };

@@ -219,11 +219,34 @@ fn number_before(line: &str, word: &str) -> f64 {
     before.rsplit(' ').next().unwrap().trim_end_matches(',').parse().unwrap_or_else(|_| panic!("{word} in {line}"))
 }
 
-/// Central differences are offered with the number of steps that they then take, measured by making the first ones; where the deck names a
-/// scheme, or the run would take hours, they are not offered.
+/// Automatic steps of a blow are those of central differences where the deck names no scheme and no error, and their number to the end is low.
+#[test]
+fn blows_of_parts_that_deform_choose_central_differences() {
+    let told = check(STRUCK, &[]);
+    let scheme = line(&told, "scheme");
+    assert!(scheme.starts_with("central-difference, chosen for automatic steps"), "{told}");
+    let step: f64 = line(&told, "step").split(' ').next().unwrap().parse().unwrap();
+    let (said, steps) = (number_before(scheme, " steps. "), 0.01 / (0.5 * step));
+    // Two digits of the number, three of the step.
+    assert!((said - steps).abs() < 0.06 * steps, "{said} {steps}");
+    let sets = ["integrator.scheme=\"esdirk3\"", "analysis.error_tolerance=1e-3", "analysis.end_time=1e5"];
+    for set in sets {
+        let told = check(STRUCK, &["--set", set]);
+        assert!(line(&told, "scheme").starts_with("esdirk3"), "{set}: {told}");
+    }
+    // Nothing deforms where a ball falls on the ground beside the sheet.
+    let beside = STRUCK.replace(
+        "surface = { part = \"sheet\" }",
+        "surface = { shape = \"plane\", point = [0.0, 0.0, -1.0], normal = [0.0, 0.0, 1.0] }",
+    );
+    assert!(line(&check(&beside, &[]), "scheme").starts_with("esdirk3"));
+}
+
+/// Central differences are offered with the number of steps that they then take, measured by making the first ones, where the deck asks for an
+/// error; where it names a scheme, or the run would take hours, they are not offered.
 #[test]
 fn central_differences_are_offered_with_the_steps_that_they_take() {
-    let told = check(STRUCK, &[]);
+    let told = check(STRUCK, &["--set", "analysis.error_tolerance=1e-3"]);
     let offer =
         told.lines().find(|line| line.contains("blows of parts that deform")).unwrap_or_else(|| panic!("{told}"));
     let central = "[integrator]\nscheme = \"central-difference\"\n[materials.steel]";

@@ -56,7 +56,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
             plane: false,
         },
         solution: Solution {
-            scheme_is_chosen: false,
+            choice: None,
             masses: rdsolve::model::ElementMasses::OfSections,
             scheme: Arc::new(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
             iteration: Iteration {

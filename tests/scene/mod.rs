@@ -70,7 +70,7 @@ pub fn model() -> Model {
             plane: false,
         },
         solution: Solution {
-            scheme_is_chosen: false,
+            choice: None,
             masses: rdsolve::model::ElementMasses::OfSections,
             scheme: Arc::new(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
             iteration: Iteration {

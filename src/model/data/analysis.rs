@@ -156,12 +156,19 @@ impl Analysis {
 pub struct Solution {
     /// The time integration scheme.
     pub scheme: Arc<dyn Scheme>,
-    /// True where the deck names none and its automatic steps leave the choice.
-    pub scheme_is_chosen: bool,
+    /// The reason for the scheme, where the deck names none and its automatic steps leave the choice.
+    pub choice: Option<String>,
     /// The masses of shells, bars and beams in motion, in all dynamic stages the same.
     pub masses: ElementMasses,
     /// The equilibrium iteration.
     pub iteration: Iteration,
+}
+
+impl Solution {
+    /// True where the program has chosen the scheme.
+    pub fn is_chosen(&self) -> bool {
+        self.choice.is_some()
+    }
 }
 
 /// The masses of deformable elements in motion.

@@ -3,6 +3,7 @@
 use super::analysis::{Analysis, Solution};
 use super::case::LoadCases;
 use super::constraints::Constraints;
+use super::contact::Contact;
 use super::expect::Expect;
 use super::loading::{Damping, Loading};
 use super::node::{Body, Mass, Node};
@@ -13,6 +14,9 @@ use super::step_length::{SAFE, SAFE_WHERE_STRUCK};
 use super::study::Study;
 use deck::parts::PartKind;
 use mechanics::sections::{SectionStresses, Stiffness};
+
+/// Largest number of constraint equations of joints, which explicit schemes solve by a dense matrix.
+const EQUATIONS: usize = 60;
 
 /// A scene, checked and ready to be planned.
 #[derive(Debug, Clone)]
@@ -112,6 +116,17 @@ impl Model {
     /// True where a part may suddenly resist more than at the current configuration.
     pub fn may_stiffen(&self) -> bool {
         self.parts.iter().any(|part| part.may_stiffen())
+    }
+
+    /// True where the dense matrix of the joints costs explicit schemes little.
+    pub fn has_few_joint_equations(&self) -> bool {
+        self.constraints.joints.iter().map(|joint| joint.equations.len()).sum::<usize>() <= EQUATIONS
+    }
+
+    /// The shortest critical step of central differences by contacts: 2/ω = T/π with the period T.
+    pub fn critical_step_of_contacts(&self) -> f64 {
+        let laws = self.each::<Contact>().filter_map(|contact| contact.law);
+        laws.map(|law| law.duration / std::f64::consts::PI).filter(|&step| step > 0.0).fold(f64::INFINITY, f64::min)
     }
 
     /// The part of the critical time step that automatic steps of central differences take.

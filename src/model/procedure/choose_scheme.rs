@@ -7,8 +7,6 @@ use std::sync::Arc;
 
 /// Largest phase ω T of the fastest vibration over a run for explicit steps; they need about two evaluations per radian.
 const PHASE: f64 = 3000.0;
-/// Largest number of constraint equations of joints, which explicit schemes solve by a dense matrix.
-const EQUATIONS: usize = 60;
 
 /// The scheme for automatic steps of this model.
 pub fn choose_scheme(model: &Model) -> Arc<dyn Scheme> {
@@ -17,8 +15,11 @@ pub fn choose_scheme(model: &Model) -> Arc<dyn Scheme> {
 
 /// True for rigid bodies alone, on joints and soft linear links.
 fn is_soft(model: &Model) -> bool {
-    let equations: usize = model.constraints.joints.iter().map(|joint| joint.equations.len()).sum();
-    if model.bodies.is_empty() || !model.masses.is_empty() || equations > EQUATIONS || !all_move_as_bodies(model) {
+    if model.bodies.is_empty()
+        || !model.masses.is_empty()
+        || !model.has_few_joint_equations()
+        || !all_move_as_bodies(model)
+    {
         return false;
     }
     let mut fastest = vec![0.0; model.nodes.len()];

@@ -29,8 +29,8 @@ pub fn explain(text: &mut Explanation, model: &Model) {
                 _ => format!("in {steps} steps of {}{of_time}", analysis.nominal_step()),
             };
             text.add("analysis", format!("dynamic, to t = {end}{of_time} {how}"));
-            let chosen = if model.solution.scheme_is_chosen { ", chosen for automatic steps" } else { "" };
-            text.add("scheme", format!("{}{chosen}", model.solution.scheme.in_words()));
+            let choice = model.solution.choice.as_ref().map_or_else(String::new, |choice| format!(", {choice}"));
+            text.add("scheme", format!("{}{choice}", model.solution.scheme.in_words()));
             text.notes.extend(model.solution.scheme.note().map(str::to_owned));
         }
     }
