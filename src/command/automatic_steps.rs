@@ -46,6 +46,6 @@ pub fn strikes_deformable(model: &Model) -> bool {
 /// The number of steps of central differences, by the critical time steps of elements and contacts.
 fn steps_to_end(model: &Model, system: &System) -> Option<f64> {
     let StepLength::StabilityLimited { fraction } = model.analysis.step_length else { return None };
-    let step = governor(model, system)?.step.min(model.critical_step_of_contacts());
+    let step = governor(model, system)?.step.min(System::critical_step_of_contacts(model));
     Some(model.analysis.duration() / (fraction * step))
 }

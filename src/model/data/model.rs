@@ -3,7 +3,6 @@
 use super::analysis::{Analysis, Solution};
 use super::case::LoadCases;
 use super::constraints::Constraints;
-use super::contact::Contact;
 use super::expect::Expect;
 use super::loading::{Damping, Loading};
 use super::node::{Body, Mass, Node};
@@ -121,12 +120,6 @@ impl Model {
     /// True where the dense matrix of the joints costs explicit schemes little.
     pub fn has_few_joint_equations(&self) -> bool {
         self.constraints.joints.iter().map(|joint| joint.equations.len()).sum::<usize>() <= EQUATIONS
-    }
-
-    /// The shortest critical step of central differences by contacts: 2/ω = T/π with the period T.
-    pub fn critical_step_of_contacts(&self) -> f64 {
-        let laws = self.each::<Contact>().filter_map(|contact| contact.law);
-        laws.map(|law| law.duration / std::f64::consts::PI).filter(|&step| step > 0.0).fold(f64::INFINITY, f64::min)
     }
 
     /// The part of the critical time step that automatic steps of central differences take.

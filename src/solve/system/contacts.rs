@@ -71,6 +71,12 @@ pub fn open_gap(group: &Group, history: &[f64]) -> Option<f64> {
 }
 
 impl System {
+    /// The shortest critical step of central differences by contacts: 2/ω = T/π with the period T.
+    pub fn critical_step_of_contacts(model: &Model) -> f64 {
+        let laws = model.each::<Contact>().filter_map(|contact| contact.law);
+        laws.map(|law| law.duration / std::f64::consts::PI).filter(|&step| step > 0.0).fold(f64::INFINITY, f64::min)
+    }
+
     /// True where the scene has contacts.
     pub fn has_contacts(&self) -> bool {
         self.contacts < self.groups.len()
