@@ -39,7 +39,7 @@ lowest = { at = "block", quantity = "z", peak = "min" }
 end = { at = "block", quantity = "z", time = "end" }
 half = { at = "block", quantity = "vz", time = 0.5 }
 kinetic = { at = "energy", quantity = "kinetic", peak = "max" }
-nothing = { at = "block", quantity = "moon", peak = "max" }
+nothing = { at = "block", quantity = "force", peak = "max" }
 "#;
 
 fn files(sweep: &str) -> tempfile::TempDir {
@@ -637,6 +637,40 @@ fn bad_files_are_errors_with_their_places() {
     assert_eq!(rdsolve(folder, &["sweep", "none.toml"]).status.code(), Some(6));
 }
 
+/// Slips of names end the sweep before its first case, with the nearest name; nothing is written.
+#[test]
+fn names_are_checked_before_the_first_case() {
+    let folder = files("");
+    let folder = folder.path();
+    for (from, to, said) in [
+        (
+            "links.rope.stiffness",
+            "links.ropes.stiffness",
+            &["`links` has no item named `ropes`", "did you mean `rope`?", "--set"][..],
+        ),
+        (r#""bodies.block.mass""#, r#""bodies.block.mas""#, &["`mas`", "mass"]),
+        (
+            r#"quantity = "vz""#,
+            r#"quantity = "vzz""#,
+            &["no table has a column `vzz`", "did you mean `vz`?", "s.toml:9:"],
+        ),
+        (
+            r#"at = "block", quantity = "vz""#,
+            r#"at = "blok", quantity = "vz""#,
+            &["`half` of [collect]", "did you mean `block`?"],
+        ),
+        (r#"quantity = "vz""#, r#"quantity = "vz", stage = "fall""#, &["no stage `fall`", "remove `stage`"]),
+    ] {
+        assert!(SWEEP.contains(from), "{from}");
+        fs::write(folder.join("s.toml"), SWEEP.replace(from, to)).unwrap();
+        let output = rdsolve(folder, &["sweep", "s.toml"]);
+        let found = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(3), "{to}: {found}");
+        said.iter().for_each(|said| assert!(found.contains(said), "{to}: {found}"));
+        assert!(!folder.join("s.out").exists(), "{to}");
+    }
+}
+
 /// Without folders a case that a signal stops leaves a checkpoint alone, goes on from there, and has the numbers of an undisturbed run. The rows
 /// before the checkpoint have some of them, and those after it the others.
 #[test]
@@ -793,7 +827,7 @@ force = [10.0, 0.0, 0.0]
 reactions = true
 "#;
     let sweep = "deck = \"deck.toml\"\n[vary]\n\"masses.0.mass\" = [1.0, 4.0]\n[collect]\nf = { mode = 1, quantity = \"frequency\" }\n\
-                 base = { at = \"wall\", quantity = \"fx\", peak = \"abs\" }\nnone = { at = \"wall\", quantity = \"moon\", peak = \"max\" }\n";
+                 base = { at = \"wall\", quantity = \"fx\", peak = \"abs\" }\nnone = { at = \"wall\", quantity = \"kinetic\", peak = \"max\" }\n";
     fs::write(folder.join("deck.toml"), deck).unwrap();
     fs::write(folder.join("s.toml"), sweep).unwrap();
     let done = rdsolve(folder, &["sweep", "s.toml"]);

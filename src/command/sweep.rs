@@ -9,12 +9,12 @@ use super::resume::deck_digest;
 use super::run::{Case, CaseEnd, CaseFault, run_case};
 use super::signals::{EndAtOnce, stop_on_signals};
 use super::version::VERSION;
-use base::diagnostic::Source;
+use base::diagnostic::{Diagnostic, Source};
 use clap::Args;
 use deck::ParsedText;
 use deck::number_slips::without_foreign_comments;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use results::collected::Collected;
+use results::collected::{Collected, CollectedWhen};
 use results::{SharedLock, replace};
 use std::fs;
 use std::io::{self, IsTerminal};
@@ -30,6 +30,7 @@ use sweep::cases::Cases;
 use sweep::file::{self, SweepFile};
 use sweep::folder::{FAILURE, SweepFolder};
 use sweep::marks::mark_all;
+use sweep::names::{check_collected, check_keys};
 
 #[derive(Debug, Args)]
 #[command(
@@ -93,7 +94,7 @@ impl FromStr for Choice {
 /// The exit code of a sweep with incomplete chosen cases; the reason has been shown.
 pub fn sweep(args: &SweepArgs) -> Result<(), Exit> {
     let reading = EndAtOnce::on_signals();
-    let (file, sweep_folder) = read(&args.sweep)?;
+    let (file, sweep_folder, source) = read(&args.sweep)?;
     let deck = sweep_folder.join(&file.deck);
     let deck_text = text(&deck)?;
     let cases = Cases::new(&file, &sweep_folder).map_err(|message| {
@@ -103,6 +104,10 @@ pub fn sweep(args: &SweepArgs) -> Result<(), Exit> {
     let path = args.output.clone().unwrap_or_else(|| named_after(&args.sweep, "out"));
     let folder = SweepFolder::new(path, (&deck.display().to_string(), &deck_text), &cases, VERSION, &file);
     let chosen = chosen(args.case, &folder)?;
+    if let (Some(&first), false) = (chosen.first(), args.collect) {
+        let case = Source::new(deck.display().to_string(), deck_text.as_str(), &cases.sets(first));
+        check_names(&args.sweep, (&file, &source), &case)?;
+    }
     if args.list {
         return list(&folder, &cases, &chosen);
     }
@@ -130,17 +135,26 @@ pub fn sweep(args: &SweepArgs) -> Result<(), Exit> {
         sweep.run(&chosen, args.case == Some(Choice::Failed), jobs)?;
     }
     let outcomes = folder.write_summary(&cases).map_err(|error| cannot_write(&folder.path, &error))?;
-    for one in folder.empty_columns().map_err(|error| cannot_write(&folder.path, &error))? {
-        let Collected { name, at, quantity, .. } = one;
-        say(&format!(
-            "warning: `{name}` is empty: no table that the cases write has one value of `{quantity}` of `{at}`. Correct `at` or `quantity`, ask \
-             for its table in `[output]` of the deck, or give `peak` where `at` names several nodes; their moments have no sum"
-        ));
-    }
+    folder.empty_columns().map_err(|error| cannot_write(&folder.path, &error))?.into_iter().for_each(tell_empty);
     for (case, torn) in folder.torn_tables(&outcomes).map_err(|error| cannot_write(&folder.path, &error))? {
         say(&format!("warning: case {case}: {torn}"));
     }
     sweep.conclude(&chosen, &outcomes)
+}
+
+/// Warns of a collected number that no case has.
+fn tell_empty(one: &Collected) {
+    let Collected { name, at, quantity, stage, when } = one;
+    let stage = stage.as_ref().map_or(String::new(), |stage| format!(" in stage `{stage}`"));
+    let (time, and_time) = match when {
+        CollectedWhen::Time(time) => (format!(" at t = {time}"), ", `time`"),
+        _ => (String::new(), ""),
+    };
+    say(&format!(
+        "warning: `{name}` is empty: no table that the cases write has one value of `{quantity}` of `{at}`{stage}{time}. Correct \
+         `at`{and_time} or `quantity`, ask for its table in `[output]` of the deck, or give `peak` where `at` names several nodes; their \
+         moments have no sum"
+    ));
 }
 
 fn cannot_write(path: &Path, error: &io::Error) -> Exit {
@@ -153,16 +167,29 @@ fn cores() -> usize {
 }
 
 /// Reads the file of a sweep; returns it with its folder.
-fn read(path: &Path) -> Result<(SweepFile, PathBuf), Exit> {
+fn read(path: &Path) -> Result<(SweepFile, PathBuf, Source), Exit> {
     let source = Source::new(path.display().to_string(), text(path)?, &[]);
     match file::read(&source) {
-        (Some(file), _) => Ok((file, path.parent().unwrap_or(Path::new("")).to_owned())),
-        (None, problems) => {
-            show(&problems, &source);
-            complain(&format!("`{}` has {}", path.display(), counted(problems.len(), "error")));
-            Err(Exit::DeckInvalid)
-        }
+        (Some(file), _) => Ok((file, path.parent().unwrap_or(Path::new("")).to_owned(), source)),
+        (None, problems) => Err(invalid(path, &problems, &source)),
     }
+}
+
+/// Shows the errors of the file of a sweep.
+fn invalid(path: &Path, problems: &[Diagnostic], source: &Source) -> Exit {
+    show(problems, source);
+    complain(&format!("`{}` has {}", path.display(), counted(problems.len(), "error")));
+    Exit::DeckInvalid
+}
+
+/// Refuses a sweep with names that the deck of its first case lacks.
+fn check_names(path: &Path, (file, source): (&SweepFile, &Source), case: &Source) -> Result<(), Exit> {
+    let of_keys = check_keys(case);
+    if !of_keys.is_empty() {
+        return Err(invalid(path, &of_keys, case));
+    }
+    let of_numbers = check_collected(file, case);
+    if of_numbers.is_empty() { Ok(()) } else { Err(invalid(path, &of_numbers, source)) }
 }
 
 /// The cases that are asked for, counted from 0.

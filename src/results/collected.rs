@@ -1,7 +1,7 @@
 //! The numbers that a sweep collects. One search reads the rows of a table as a run makes them, or as its file has them.
 
 use super::TABLES;
-use super::curve::{REACTION, REACTIONS, reaction_direction};
+use super::curve::{REACTION, REACTION_COMPONENTS, REACTIONS, reaction_direction};
 use super::table::{BETWEEN_SETS, CASE, SET, STAGE, TableKind, names_subject};
 use super::table_reader::{TableReader, fields, number, text};
 use base::snapshot::keep;
@@ -124,6 +124,13 @@ pub fn found<'s>(tables: impl Iterator<Item = &'s RowSearch>, count: usize) -> V
         found[search.place] = found[search.place].or(search.number());
     }
     found
+}
+
+/// The quantities that tables have: their columns without the names of rows, and the components of reactions.
+pub fn quantities() -> impl Iterator<Item = &'static str> {
+    let kinds = TABLES.iter().filter(|kind| !kind.every_step);
+    let columns = kinds.flat_map(|kind| kind.columns()).filter(|column| !column.is_key()).map(|column| column.name);
+    columns.chain(REACTION_COMPONENTS)
 }
 
 /// True if a table may have an extreme among these numbers.

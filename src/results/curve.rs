@@ -31,10 +31,12 @@ pub struct CurveAxis {
 pub const REACTIONS: &str = "reactions.csv";
 /// ... and its column of values, one row for each direction.
 pub const REACTION: &str = "value";
+/// The components of force and moment of its rows.
+pub const REACTION_COMPONENTS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 
 /// The direction of the rows of [`REACTIONS`] that hold a component of force or moment: "ux" for "fx".
 pub fn reaction_direction(component: &str) -> Option<&'static str> {
-    let place = ["fx", "fy", "fz", "mx", "my", "mz"].iter().position(|word| *word == component)?;
+    let place = REACTION_COMPONENTS.iter().position(|word| *word == component)?;
     Some(["ux", "uy", "uz", "rx", "ry", "rz"][place])
 }
 

@@ -79,7 +79,17 @@ pub struct Computed {
     pub numbers: Vec<Option<f64>>,
 }
 
-/// The first lines of a reason as one.
+/// A reason as one line: of an excerpt from a deck the remedy at its caret alone.
 pub fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    let told = |line: &'_ str| {
+        let line = line.trim();
+        match line.split_once('|') {
+            Some((number, rest)) if number.trim().chars().all(|c| c.is_ascii_digit()) => {
+                let remedy = rest.trim_start().strip_prefix('^').map(|rest| rest.trim_start_matches('^').trim());
+                remedy.filter(|remedy| !remedy.is_empty()).map(|remedy| format!("; {remedy}"))
+            }
+            _ => (!line.starts_with("-->")).then(|| format!(" {line}")),
+        }
+    };
+    text.lines().filter_map(told).collect::<String>().split_whitespace().collect::<Vec<_>>().join(" ")
 }

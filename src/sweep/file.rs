@@ -4,7 +4,7 @@ use super::case_state::CaseState;
 use base::diagnostic::{Diagnostic, Source, Span};
 use base::names::{nearest, quoted};
 use deck::number_slips;
-use results::collected::{Collected, CollectedWhen};
+use results::collected::{Collected, CollectedWhen, quantities};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -304,7 +304,7 @@ impl Reader<'_> {
         for (key, place, value) in self.entries(&format!("`{name}`"), table, &COLLECTED) {
             match (key, value.get_ref()) {
                 ("at", DeValue::String(text)) => at = Some(text.to_string()),
-                ("quantity", DeValue::String(text)) => quantity = Some(text.to_string()),
+                ("quantity", DeValue::String(text)) => quantity = self.quantity(text, &value.span()),
                 ("stage", DeValue::String(text)) => stage = Some(text.to_string()),
                 ("mode", _) => at = self.count(key, value, 1).map(|mode| mode.to_string()).or(at),
                 ("at" | "quantity" | "stage", _) => {
@@ -334,6 +334,16 @@ impl Reader<'_> {
             self.error(&key.span(), format!("`{name}` is a column of the summary already"));
         }
         Some(Collected { name, at: at?, quantity: quantity?, stage, when: when? })
+    }
+
+    /// A column of some table.
+    fn quantity(&mut self, word: &str, place: &Span) -> Option<String> {
+        if !quantities().any(|known| known == word) {
+            let problem = Diagnostic::error(format!("no table has a column `{word}`")).at(place);
+            let near = nearest(word, quantities()).map(|near| format!("did you mean `{near}`?"));
+            self.problems.push(problem.hint(near.unwrap_or("docs/results.md lists the columns of all tables".into())));
+        }
+        Some(word.to_owned())
     }
 
     fn number<'t>(&mut self, name: &str, value: &'t Spanned<DeValue<'t>>) -> Option<f64> {

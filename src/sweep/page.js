@@ -11,6 +11,8 @@ const make = (tag, properties = {}, ...children) => {
 };
 const number = text => (text.trim() === "" ? NaN : Number(text));
 const few = x => (x !== 0 && (Math.abs(x) < 1e-3 || Math.abs(x) >= 1e6) ? x.toExponential(2) : String(+x.toPrecision(4)));
+// Numbers of a run have up to 17 digits.
+const shown = text => (text.length > 9 && !Number.isNaN(number(text)) ? String(+number(text).toPrecision(7)) : text);
 
 /** A choice among columns, given by their places. */
 function choice(label, places, first, chosen) {
@@ -81,7 +83,7 @@ function table() {
   const body = make("tbody");
   for (const k of order) {
     const row = make("tr");
-    rows[k].forEach((text, place) => row.append(make("td", {}, place || !folders[k] ? text : make("a", { href: folders[k] + "/", textContent: text }))));
+    rows[k].forEach((text, place) => row.append(make("td", { title: text }, place || !folders[k] ? shown(text) : make("a", { href: folders[k] + "/", textContent: text }))));
     body.append(row);
   }
   byId("cases").replaceChildren(make("thead", {}, head), body);
