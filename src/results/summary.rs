@@ -92,7 +92,10 @@ impl ResultSummary {
                 }
                 _ => of_table(table.file, rows, &mut apart)?,
             };
-            columns.extend(of_table.into_iter().filter(|column| takes(&column.table, &column.column)));
+            columns.extend(of_table.into_iter().filter(|column| {
+                let name = column.column.split(" (").next().unwrap_or_default();
+                takes(&column.table, name)
+            }));
         }
         if result.is_null() && !TABLES.iter().any(|table| is_there(table.file)) {
             return Err(at(folder, io::Error::other("no results: neither a table nor result.json")));
@@ -156,7 +159,10 @@ fn of_table(file: &str, mut rows: TableReader, apart: &mut usize) -> io::Result<
     );
     let names: Vec<String> = places.iter().map(|&place| rows.header[place].clone()).collect();
     let width = rows.header.len();
-    let mut found: Vec<Option<[Extremum; 3]>> = vec![None; places.len()];
+    // Rows of reactions hold forces or moments in one column.
+    let direction = rows.column("direction");
+    let kinds = if direction.is_some() { &[" (forces)", " (moments)"][..] } else { &[""] };
+    let mut found: Vec<Vec<Option<[Extremum; 3]>>> = vec![vec![None; places.len()]; kinds.len()];
     let mut last = f64::NEG_INFINITY;
     let (step_at, mut step) = (rows.column("step"), None);
     let mut ragged = None;
@@ -175,7 +181,8 @@ fn of_table(file: &str, mut rows: TableReader, apart: &mut usize) -> io::Result<
         let begins = time != last;
         last = time;
         let at = || keys.iter().map(|&key| text(row[key]).into_owned()).collect::<Vec<_>>().join(" ");
-        for (extremes, &place) in found.iter_mut().zip(&places) {
+        let kind = direction.map_or(0, |place| usize::from(row[place].starts_with(b"r")));
+        for (extremes, &place) in found[kind].iter_mut().zip(&places) {
             note(extremes, number(row[place]), time, begins, &at);
         }
     }
@@ -186,7 +193,13 @@ fn of_table(file: &str, mut rows: TableReader, apart: &mut usize) -> io::Result<
         let [least, largest, end] = extremes?;
         Some(ColumnSummary { table: file.to_owned(), column: name, least, largest, end })
     };
-    Ok(names.into_iter().zip(found).filter_map(summary).collect())
+    let named = |kind: &str| names.iter().map(|name| format!("{name}{kind}")).collect::<Vec<_>>();
+    Ok(kinds
+        .iter()
+        .zip(found)
+        .flat_map(|(kind, found)| named(kind).into_iter().zip(found))
+        .filter_map(summary)
+        .collect())
 }
 
 /// Whether a column, by its file and its name, is to be shown.
