@@ -25,30 +25,43 @@ pub struct Judged<'j> {
     pub bars: &'j mut ErrorBars,
 }
 
-/// Makes the other run, and passes its estimate to expectations and tables. The coarser mesh may be chosen already, with the ratio of the errors.
+/// The coarser mesh of a deck for another run.
+///
+/// # Errors
+/// The reason why the error of the mesh cannot be known, in a sentence.
+pub fn coarser_mesh(source: &Source, model: &Model) -> Result<CoarserMesh, String> {
+    let by_hand = "Run the deck with half as many `elements` by `--set`, and give both folders to `rdsolve compare`";
+    let unknown = |why: &str| Err(format!("the error of the mesh is not known: {why}"));
+    if model.analysis.stage.is_some() {
+        return unknown(&format!("it is estimated for decks without stages only. {by_hand}"));
+    }
+    if model.analysis.step_length.is_arc_length() {
+        return unknown(&format!("along a path, steps have other load factors with another mesh. {by_hand}"));
+    }
+    if !model.parts.iter().any(|part| part.kind().is_deformable()) {
+        return unknown("there is none, for nothing deforms");
+    }
+    let (Some(deck), _) = deck::read(source) else { return unknown("the deck cannot be read again") };
+    let mesh = coarser(&deck, model);
+    if !mesh.sets.is_empty() {
+        return Ok(mesh);
+    }
+    let why = "no part can have fewer elements, or a lower degree, than it has";
+    unknown(&if deck.mesh.is_none() { why.to_owned() } else { of_file(&mesh.unchanged) })
+}
+
+/// Makes the other run with this mesh, and passes its estimate to expectations and tables.
 ///
 /// # Errors
 /// The reason why the error is not known, in a sentence.
 pub fn tell_mesh_error(
-    source: &Source,
-    model: &Model,
+    (source, model): (&Source, &Model),
     (steps, threads, stop): (Option<StepError>, usize, &AtomicBool),
-    chosen: Option<CoarserMesh>,
+    mesh: CoarserMesh,
     judged: Judged,
 ) -> Result<ReportedMesh, String> {
     let unknown = |why: &str| format!("the error of the mesh is not known: {why}");
-    if model.analysis.step_length.is_arc_length() {
-        return Err(unknown("paths of given arc length have other load factors at each step with another mesh"));
-    }
-    let (Some(deck), _) = deck::read(source) else { return Err(unknown("the deck cannot be read again")) };
-    if !model.parts.iter().any(|part| part.kind().is_deformable()) {
-        return Err(unknown("there is none, for nothing deforms"));
-    }
-    let CoarserMesh { sets, mut apart, unchanged, coarsest } = chosen.unwrap_or_else(|| coarser(&deck, model));
-    if sets.is_empty() {
-        let why = "no part can have fewer elements, or a lower degree, than it has";
-        return Err(unknown(&if unchanged.is_empty() { why.to_owned() } else { of_file(&unchanged) }));
-    }
+    let CoarserMesh { sets, mut apart, unchanged, coarsest } = mesh;
     let times = judged.bars.times_for_mesh().into_iter().chain(judged.expectations.times_for_mesh()).collect();
     let mut other =
         OtherMesh { source, cadence: model.output.cadence, steps, threads, stop, times, is_coarsest: false, judged };

@@ -16,7 +16,7 @@ use super::exit::Exit;
 use super::folder::{named_after, require_free};
 use super::load::{Loaded, Unfit, build_read, load, plan, prepare, too_large};
 use super::memory::{Forecast, require_memory};
-use super::mesh_error::{Judged, of_file, tell_mesh_error};
+use super::mesh_error::{Judged, coarser_mesh, of_file, tell_mesh_error};
 use super::resume::{checkpoint_in, checkpoint_origin, deck_digest, resume};
 use super::signals::{EndAtOnce, end_with_input, stop_on_signals};
 use super::stages::{StageRunner, StagesTold, explained_stage};
@@ -40,7 +40,7 @@ use solve::plan::Plan;
 use solve::plan::explain::{Explanation, mass_added};
 use solve::system::System;
 use solve::{Counts, Outcome, Run, StepError};
-use study::LIFELINE;
+use study::{CoarserMesh, LIFELINE};
 
 /// Runs a deck.
 ///
@@ -85,7 +85,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
         marks: true,
         keeps: RunKeeps::FILES,
         quiet: args.quiet,
-        mesh_error: args.mesh_error,
+        coarser: coarser_of(args, chosen.as_ref(), &loaded)?,
         chosen: chosen.as_ref(),
         threads,
         stop: &stop,
@@ -104,6 +104,17 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
         Exit::InputOutput
     })?;
     job.conclude(ended)
+}
+
+/// The mesh for the error of the mesh, where one is asked for or the settings for the accuracy have one. One that cannot be had ends the run.
+fn coarser_of(args: &RunArgs, chosen: Option<&ChosenSettings>, loaded: &Loaded) -> Result<Option<CoarserMesh>, Exit> {
+    match chosen.and_then(|chosen| chosen.coarser.clone()) {
+        None if args.mesh_error => coarser_mesh(&loaded.source, &loaded.model).map(Some).map_err(|why| {
+            complain(&format!("--mesh-error: {why}"));
+            Exit::Usage
+        }),
+        mesh => Ok(mesh),
+    }
 }
 
 /// Names a scheme that often takes less time.
@@ -184,7 +195,7 @@ pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<CaseEn
         marks: false,
         keeps,
         quiet: true,
-        mesh_error: false,
+        coarser: chosen.as_ref().and_then(|chosen| chosen.coarser.clone()),
         chosen: chosen.as_ref(),
         threads: 1,
         stop,
@@ -265,11 +276,7 @@ fn use_threads(asked: Option<u8>) -> usize {
 
 /// The last line of the log.
 fn last_line(end: &End) -> String {
-    match (end.status, end.reason.as_str()) {
-        (Status::Done, "") => "done".to_owned(),
-        (Status::Done, reason) => format!("done: {reason}"),
-        _ => end.sentence(),
-    }
+    if end.status == Status::Done { "done".to_owned() } else { end.sentence() }
 }
 
 /// True where steps move a displacement.
@@ -324,7 +331,8 @@ struct Job<'a> {
     marks: bool,
     keeps: RunKeeps<'a>,
     quiet: bool,
-    mesh_error: bool,
+    /// The mesh of another run for the error of the mesh.
+    coarser: Option<CoarserMesh>,
     /// The settings that `accuracy` has chosen.
     chosen: Option<&'a ChosenSettings>,
     threads: usize,
@@ -374,8 +382,6 @@ impl Job<'_> {
         let of_run = self.warnings_of(warnings, of_files, mesh.as_ref());
         of_run.iter().try_for_each(|warning| watchers.log.warn(warning))?;
         let warnings = self.warnings_of_deck().map(str::to_owned).chain(of_run).collect();
-        told.energy.iter().try_for_each(|line| watchers.log.say(line))?;
-        let lines = [std::mem::take(&mut watchers.modes), std::mem::take(&mut told.energy)].concat();
         let expectations = watchers.expectations.verdicts();
         let errors = ReportedErrors {
             step_error: steps,
@@ -384,8 +390,11 @@ impl Job<'_> {
             accuracy: self.chosen.map(|chosen| chosen.report.clone()),
             error_bars: watchers.bars.map(ErrorBars::into_bars).unwrap_or_default(),
         };
-        error_bars_in_words(&errors.error_bars).iter().try_for_each(|line| watchers.log.say(line))?;
-        let end = end(outcome, told.short.take(), &expectations)?;
+        let bars = error_bars_in_words(&errors.error_bars);
+        told.energy.iter().chain(&bars).try_for_each(|line| watchers.log.say(line))?;
+        let bars = if errors.mesh.is_some() && expectations.is_empty() { bars } else { Vec::new() };
+        let lines = [std::mem::take(&mut watchers.modes), std::mem::take(&mut told.energy), bars].concat();
+        let end = end(outcome, (&told.missed, told.unstable_from), &expectations)?;
         watchers.log.say(&last_line(&end))?;
         let result = RunResult {
             status: end.status,
@@ -451,7 +460,7 @@ impl Job<'_> {
     fn watchers(&self, log: Log, resumes: bool, run: &mut Run) -> io::Result<Watchers> {
         let model = &self.loaded.model;
         // Bars are those of one run from t = 0 on.
-        let tells_errors = (by_error(model) || self.tells_mesh_error()) && model.analysis.stage.is_none();
+        let tells_errors = (by_error(model) || self.coarser.is_some()) && model.analysis.stage.is_none();
         let options = [self.quiet, tells_errors];
         let files = Files::waiting(self.folder, self.keeps);
         let files = if resumes { files } else { files.begin(model)? };
@@ -496,25 +505,14 @@ impl Job<'_> {
         run: &Run,
         watchers: &mut Watchers,
     ) -> Option<Result<ReportedMesh, String>> {
-        if self.mesh_error && self.loaded.model.analysis.stage.is_some() {
-            return Some(Err("the error of the mesh is not known: it is not told of a deck with stages".to_owned()));
-        }
-        let Watchers { expectations, bars: Some(bars), .. } = watchers else { return None };
-        if !self.tells_mesh_error() || !matches!(outcome, Outcome::Done) {
-            return None;
-        }
+        let (Watchers { expectations, bars: Some(bars), .. }, Outcome::Done) = (watchers, outcome) else { return None };
+        let coarser = self.coarser.clone()?;
         if let Some(told) = self.chosen.and_then(|chosen| chosen.tell_mesh(bars, expectations)) {
             return Some(Ok(told));
         }
         let (source, model) = (&self.loaded.source, &self.loaded.model);
         let like = (run.step_error(), self.threads, self.stop);
-        let coarser = self.chosen.and_then(|chosen| chosen.coarser.clone());
-        Some(tell_mesh_error(source, model, like, coarser, Judged { expectations, bars }))
-    }
-
-    /// True where a run with a coarser mesh follows.
-    fn tells_mesh_error(&self) -> bool {
-        self.mesh_error || self.chosen.is_some_and(|chosen| chosen.coarser.is_some())
+        Some(tell_mesh_error((source, model), like, coarser, Judged { expectations, bars }))
     }
 
     /// The warnings about the deck. Notes are left out, for they question no result.
@@ -560,12 +558,7 @@ impl Job<'_> {
         }
         print(&text)?;
         let exit = match end.status {
-            Status::Done => {
-                if !end.reason.is_empty() && !self.quiet {
-                    show(&[Diagnostic::warning(end.reason.as_str())], &self.loaded.source);
-                }
-                return Ok(());
-            }
+            Status::Done => return Ok(()),
             Status::NotConverged => Exit::NotConverged,
             Status::ExpectationMissed => Exit::CheckFailed,
             Status::Stopped => Exit::Stopped,

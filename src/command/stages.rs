@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use super::load::{Loaded, model_stage};
 use super::verdict::{
-    energy_line, energy_warning, overshoot_warning, rest_warning, ringing_warning, rows_warning, short_of_stop,
-    work_warning,
+    MissedStop, energy_line, energy_warning, missed_stop, overshoot_warning, rest_warning, ringing_warning,
+    rows_warning, work_warning,
 };
 use super::watchers::{Watchers, stage_begins};
 use base::names::{instant, to_digits};
@@ -21,7 +21,7 @@ use results::{listed, settle_cadence, wanted_with};
 use solve::plan::Plan;
 use solve::plan::explain::{Explanation, explain};
 use solve::system::System;
-use solve::{Counts, Failure, Handover, Outcome, Run, StepError};
+use solve::{Counts, Failure, Handover, Outcome, Run, StepError, Warning};
 
 /// The reports of the stages of a run for its end.
 #[derive(Default)]
@@ -44,8 +44,10 @@ pub struct StagesTold {
     pub failed: Option<usize>,
     /// The error of automatic steps, in the last stage that has them.
     pub step_error: Option<StepError>,
-    /// Says of a path that it ended before its `stop`.
-    pub short: Option<String>,
+    /// The `stop` of each stage or path that ended before it.
+    pub missed: Vec<String>,
+    /// The time at which an equilibrium first turns unstable.
+    pub unstable_from: Option<f64>,
     /// The plan of the current stage; `None` where nobody reads it.
     pub plan: Option<Explanation>,
     /// The plans of later stages as far as they differ from those before, line by line.
@@ -55,7 +57,7 @@ pub struct StagesTold {
 }
 
 keep!(StagesTold {
-    warnings, remarks, energy, counts, rotation_drift, joint_violation, failed, step_error, short, contacts,
+    warnings, remarks, energy, counts, rotation_drift, joint_violation, failed, step_error, missed, unstable_from, contacts,
 } without { observing, plan, plans });
 
 impl StagesTold {
@@ -156,10 +158,7 @@ impl StagesTold {
         let balance = Some(run.balance()).filter(|_| !is_lost);
         let of_energy = balance.and_then(|balance| energy_warning(balance, model));
         let of_run = of_energy.into_iter().chain(at_rest).chain(work_warning(run));
-        let of_stage = stop_missed(run, model)
-            .into_iter()
-            .chain(left_held(run, model, end_time))
-            .chain(weight_left(run, model, end_time));
+        let of_stage = left_held(run, model, end_time).into_iter().chain(weight_left(run, model, end_time));
         let of_run =
             of_run.chain(ringing_warning(effort, model)).chain(overshoot_warning(run)).chain(rows_warning(run, model));
         self.warnings.extend(of_run.chain(of_stage).map(|text| format!("{stage}{text}")));
@@ -174,7 +173,14 @@ impl StagesTold {
         self.joint_violation = self.joint_violation.into_iter().chain(run.joint_violation()).reduce(f64::max);
         self.failed = run.broken().or(self.failed);
         self.step_error = run.step_error().or(self.step_error);
-        self.short = end_time.and_then(|time| short_of_stop(model, run, time));
+        let unstable = run.warnings().iter().filter_map(Warning::unstable_from);
+        self.unstable_from = unstable.chain(self.unstable_from).reduce(f64::min);
+        let missed =
+            end_time.filter(|_| matches!(outcome, Outcome::Done)).and_then(|time| missed_stop(model, run, time));
+        if let Some(MissedStop { words, required }) = missed {
+            let told = if required { &mut self.missed } else { &mut self.remarks };
+            told.push(format!("{stage}{words}"));
+        }
     }
 
     /// Says of contacts that nothing touched in the whole run: a note where another did, or else a warning.
@@ -196,13 +202,6 @@ impl StagesTold {
             false => self.remarks.push(format!("nothing ever touched in {what} {names}")),
         }
     }
-}
-
-/// Says of a stage that its time was over before it came to its `stop`.
-fn stop_missed(run: &Run, model: &Model) -> Option<String> {
-    let stop = model.analysis.stage.as_ref()?.stop.as_ref()?;
-    let missed = run.has_stopped() == Some(false);
-    missed.then(|| format!("{} did not come to {} before the stage was over", stop.label, stop.value))
 }
 
 /// Reports a static stage that stopped before its end while it was still unloading.

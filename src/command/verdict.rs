@@ -13,11 +13,14 @@ use std::io;
 /// A larger part of the energy is seen in the results.
 const SEEN: f64 = 0.02;
 
+/// Dampers may dissipate too much by this part of the energy of the motion without a line.
+const UNTOLD: f64 = 1e-3;
+
 /// The end of a run.
 pub struct End {
     /// The kind of end, which decides the exit code.
     pub status: Status,
-    /// The reason in a sentence without a full stop; it is empty where all went as the deck asks.
+    /// The reason in a sentence without a full stop; it is empty when done.
     pub reason: String,
     /// The time up to which results are valid, if the run stopped early.
     pub valid_until: Option<f64>,
@@ -41,8 +44,13 @@ impl End {
     }
 }
 
-/// Judges the end of a run, which may be `short` of the end of a path. An error is one of input/output.
-pub fn end(outcome: Outcome, short: Option<String>, expectations: &[Verdict]) -> io::Result<End> {
+/// Judges the end of a run by its expectations, the `stop` of stages that it has missed, and the time at which an equilibrium turned unstable. An
+/// error is one of input/output.
+pub fn end(
+    outcome: Outcome,
+    (short, unstable_from): (&[String], Option<f64>),
+    expectations: &[Verdict],
+) -> io::Result<End> {
     let mut is_valid_before = false;
     let (status, reason, valid_until) = match outcome {
         Outcome::Io(error) => return Err(error),
@@ -50,41 +58,68 @@ pub fn end(outcome: Outcome, short: Option<String>, expectations: &[Verdict]) ->
             let status = if failure.is_of_memory() { Status::TooLittleMemory } else { Status::NotConverged };
             let valid_until = failure.valid_until().unwrap_or(time);
             is_valid_before = valid_until < time;
-            (status, format!("at t = {}: {failure}", instant(time)), Some(valid_until))
+            (status, vec![format!("at t = {}: {failure}", instant(time))], Some(valid_until))
         }
         Outcome::Stopped { time, cut } => {
             let why = cut.as_ref().map_or_else(String::new, |cut| format!(" in a step that was cut back: {cut}"));
-            (Status::Stopped, format!("stopped by a signal at t = {}{why}", instant(time)), Some(time))
+            (Status::Stopped, vec![format!("stopped by a signal at t = {}{why}", instant(time))], Some(time))
         }
-        Outcome::Done => match expectations.iter().filter(|verdict| !verdict.passed).count() {
-            0 => (Status::Done, String::new(), None),
-            missed => {
-                let reason = format!("{missed} of {} expected values missed", expectations.len());
-                (Status::ExpectationMissed, reason, None)
+        Outcome::Done => {
+            let missed = expectations.iter().filter(|verdict| !verdict.passed).count();
+            let missed = (missed > 0).then(|| format!("{missed} of {} expected values missed", expectations.len()));
+            let missed: Vec<String> = missed.into_iter().chain(short.iter().cloned()).collect();
+            is_valid_before = true;
+            match unstable_from {
+                Some(_) => {
+                    let unstable = "the equilibrium is unstable: the structure buckles".to_owned();
+                    (Status::NotConverged, [missed, vec![unstable]].concat(), unstable_from)
+                }
+                None if missed.is_empty() => (Status::Done, missed, None),
+                None => (Status::ExpectationMissed, missed, None),
             }
-        },
+        }
     };
-    let reasons: Vec<String> = [Some(reason), short].into_iter().flatten().filter(|text| !text.is_empty()).collect();
-    Ok(End { status, reason: reasons.join("; "), valid_until, is_valid_before })
+    Ok(End { status, reason: reason.join("; "), valid_until, is_valid_before })
 }
 
-/// Says of a path that it ended before its `stop`; `None` for any other end.
-pub fn short_of_stop(model: &Model, run: &Run, time: f64) -> Option<String> {
-    let (StepLength::ArcLength(ArcLength { stop: Some(stop), .. }), Some(value)) =
-        (&model.analysis.step_length, run.short_of_stop())
-    else {
-        return None;
+/// A `stop` that a stage or path did not reach before its end.
+pub struct MissedStop {
+    /// The value, and what to change.
+    pub words: String,
+    /// True unless the deck allows it.
+    pub required: bool,
+}
+
+/// The `stop` that a run has missed; `None` without one.
+pub fn missed_stop(model: &Model, run: &Run, time: f64) -> Option<MissedStop> {
+    let remedy = "or give `stop` a value that it reaches, or `required = false`";
+    let of_path = match &model.analysis.step_length {
+        StepLength::ArcLength(ArcLength { stop, .. }) => stop.as_ref().zip(run.short_of_stop()),
+        _ => None,
     };
-    let (node, direction) = (&model.nodes[stop.node].label, DIRECTIONS[stop.dof]);
-    let pass = if stop.pass == 1 { String::new() } else { format!(" for pass {}", stop.pass) };
-    Some(format!(
-        "`stop` was not reached: {direction} of `{node}` never reached {}{pass}, and is {} at the end, t = {}, after {} steps. Give a larger \
-         `end_time` or more `steps`, or a `stop` that the path reaches",
-        stop.value,
-        to_digits(value, DIGITS),
-        instant(time),
-        run.counts().steps
-    ))
+    if let Some((stop, value)) = of_path {
+        let (node, direction) = (&model.nodes[stop.node].label, DIRECTIONS[stop.dof]);
+        let pass = if stop.pass == 1 { String::new() } else { format!(" for pass {}", stop.pass) };
+        let words = format!(
+            "`stop` was not reached: {direction} of `{node}` never reached {}{pass}, and is {} at the end, t = {}, after {} steps. Run longer, \
+             {remedy}",
+            stop.value,
+            to_digits(value, DIGITS),
+            instant(time),
+            run.counts().steps
+        );
+        return Some(MissedStop { words, required: stop.required });
+    }
+    let stop = model.analysis.stage.as_ref()?.stop.as_ref()?;
+    (run.has_stopped() == Some(false)).then(|| MissedStop {
+        words: format!(
+            "`stop` was not reached: {} did not come to {} until the end of the stage, t = {}. Give a longer `duration`, {remedy}",
+            stop.label,
+            stop.value,
+            instant(time)
+        ),
+        required: stop.required,
+    })
 }
 
 /// The change of energy by time integration, in a line; `None` if nothing moves.
@@ -99,11 +134,13 @@ pub fn energy_line(balance: &Balance, model: &Model) -> Option<String> {
     if !(motion.is_finite() && balance.lost().is_finite()) {
         return Some("numerical dissipation: not measured, because energies are not finite".to_owned());
     }
-    if motion <= balance.rounding {
+    // Steps sum the work of dampers to a few digits.
+    let is_work = balance.lost() < 0.0 && balance.is_work_of_dampers(-balance.lost());
+    if motion <= balance.rounding || is_work && -balance.lost() < UNTOLD * motion {
         return None;
     }
     let of = |energy: f64| of_motion(energy, balance);
-    Some(if balance.lost() < 0.0 && balance.is_work_of_dampers(-balance.lost()) {
+    Some(if is_work {
         format!("balance of energy: dampers have dissipated more than there was, by {}", of(-balance.lost()))
     } else if is_seen(balance.generated, balance, model) {
         format!("numerical growth of energy: {}", of_largest(balance.generated, balance))
@@ -311,7 +348,12 @@ pub fn error_bars_in_words(bars: &[ErrorBar]) -> Vec<String> {
         let (value, errors) = (to_digits(bar.value, DIGITS), plus_minus(bar.step_error, bar.mesh_error));
         format!("  {} {}: {value}{errors} ({at}t = {})", bar.table, bar.column, instant(bar.time))
     };
-    if bars.is_empty() { Vec::new() } else { std::iter::once(title).chain(bars.iter().map(line)).collect() }
+    let is_zero = |bar: &&ErrorBar| {
+        let errors = [bar.step_error, bar.mesh_error].into_iter().flatten();
+        bar.value == 0.0 && errors.fold(0.0, f64::max) == 0.0
+    };
+    let lines: Vec<String> = bars.iter().filter(|bar| !is_zero(bar)).map(line).collect();
+    if lines.is_empty() { lines } else { std::iter::once(title).chain(lines).collect() }
 }
 
 /// The number of digits of values and of expected values.

@@ -134,6 +134,8 @@ pub struct DisplacementTarget {
     pub value: Maybe<f64>,
     /// Which of its passages through the value is meant, from either side, 1 or more. Default: 1.
     pub pass: Maybe<u64>,
+    /// Of `stop`: false for a limit that need not be reached. Default: true, and a path that ends before it ends the run with exit code 5.
+    pub required: Maybe<bool>,
 }
 
 /// A displacement by its direction.

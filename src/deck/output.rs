@@ -9,7 +9,8 @@ use super::words::{FlagOrTable, Maybe, Names, Table};
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
-    /// Nodes in nodes.csv: "named", "all", or names of points, parts and sets. Default: "named".
+    /// Nodes in nodes.csv: "named", "all", or names of points, parts and sets. "named" means all points of the deck, also in a list. With an
+    /// empty list rdsolve does not write nodes.csv. Default: "named".
     pub nodes: Maybe<Names>,
     /// Steps between two rows of all tables, 1 or more; 1 writes every step. Default without `interval`: 1 while the tables stay below
     /// about 20 MB, otherwise 2, 5, 10 and so on; with automatic steps the steps that are far enough apart. An explicit run of a thousand

@@ -94,6 +94,9 @@ pub struct Stop {
     pub force: Maybe<f64>,
     /// Time of the run.
     pub time: Maybe<f64>,
+    /// False for a limit that need not be reached: the stage then ends after `duration`. Default: true, and a stage that ends before it
+    /// reaches the value ends the run with exit code 5.
+    pub required: Maybe<bool>,
 }
 
 /// A displacement by its direction.

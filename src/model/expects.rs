@@ -11,7 +11,7 @@ use super::report::{Owner, Report};
 use super::scene::Scene;
 use super::values::keys;
 use base::diagnostic::{At, Diagnostic};
-use base::names::nearest;
+use base::names::{nearest, short};
 use base::quantities::{self, Column, PLASTIC_STRAIN, QUATERNION, SECTION_STRESSES};
 use deck::expect as words;
 use deck::parts::PartIndex;
@@ -492,6 +492,7 @@ impl<'d> Expects<'_, 'd> {
                     hint,
                 );
             }
+            self.report.reject_unused("`when`", &keys!(when; required));
             return displacement_target("`when`", when, self.scene, self.topology, self.report).map(When::Target);
         }
         if let (Some(stage), Some(time)) = (&expect.stage, &expect.time) {
@@ -571,7 +572,18 @@ impl<'d> Expects<'_, 'd> {
                 let message = "`tolerance` is relative, and the expected value is zero";
                 self.report.error_with(&relative.span, message, "give `absolute_tolerance` instead")
             }
-            (Some(_), None) => self.report.positive("tolerance", &expect.tolerance).map(Tolerance::Relative),
+            (Some(relative), None) => {
+                if relative.value > 1.0 {
+                    let [percent, part] = [100.0 * relative.value, 0.01 * relative.value].map(short);
+                    let message = format!("`tolerance` is {percent} % of the expected value");
+                    self.report.note(
+                        &relative.span,
+                        message,
+                        format!("it is a part: {part} is {} %", short(relative.value)),
+                    );
+                }
+                self.report.positive("tolerance", &expect.tolerance).map(Tolerance::Relative)
+            }
             (None, Some(_)) => {
                 self.report.positive("absolute_tolerance", &expect.absolute_tolerance).map(Tolerance::Absolute)
             }

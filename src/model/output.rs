@@ -12,6 +12,8 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// Files of fields at most, unless the deck says how many.
 const MOST_FIELDS: f64 = 200.0;
+/// The word for the nodes that the deck names.
+const NAMED: &str = "named";
 /// Largest number of output times; more are taken for a typing error, and would exhaust memory.
 const MOST_ROWS: f64 = 1e7;
 
@@ -42,9 +44,9 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
     let word = table.nodes.as_ref().filter(|nodes| nodes.single).map(|nodes| nodes.values[0].as_str());
     let (nodes, sets) = match word {
         Some("all") => (Vec::new(), Vec::new()),
-        Some("named") => (named_nodes(scene, nodes), Vec::new()),
+        Some(NAMED) => (named_nodes(scene, nodes), Vec::new()),
         _ if table.nodes.is_none() => (named_nodes(scene, nodes), Vec::new()),
-        _ => listed_nodes(scene, table, report),
+        _ => listed_nodes(scene, nodes, table, report),
     };
     let end_time = scene.analysis.duration();
     let cadence = cadence(table, end_time, is_arc_length, report);
@@ -128,27 +130,37 @@ fn named_nodes(scene: &Scene, nodes: &[Node]) -> Vec<usize> {
     (0..nodes.len()).filter(|&node| nodes[node].named && !is_body(scene, node)).collect()
 }
 
-/// Nodes that the table lists, sorted, and the names that list them if one of these is no point.
+/// Nodes that the table lists, sorted. Their names come with them if one of these is no point. Among names, "named" means all points of
+/// the deck.
 fn listed_nodes<'d>(
     scene: &Scene<'d>,
+    nodes: &[Node],
     table: &'d At<Table<words::Output>>,
     report: &mut Report<'d>,
 ) -> (Vec<usize>, Vec<String>) {
-    let owner = Owner::new("`[output]`", &table.span);
-    let spots = scene.spots(&owner, "nodes", &table.nodes, Reach::Parts, report);
+    let list = table.nodes.iter().flat_map(|list| &list.values);
+    let (word, names): (Vec<_>, Vec<_>) = list.partition(|name| name.value == NAMED);
+    let spots = scene.spots_of("nodes", names.iter().copied(), Reach::Parts, report);
     for spot in spots.iter().filter(|spot| spot.direct && is_body(scene, spot.node)) {
         let message = format!("`{}` is a body, and not written with the nodes", spot.name);
         report.error_with::<()>(spot.span, message, "remove it: bodies are always written to bodies.csv");
     }
-    let mut listed: Vec<_> = spots.iter().filter(|spot| !is_body(scene, spot.node)).collect();
-    listed.sort_unstable_by_key(|spot| spot.node);
-    let nodes: Vec<usize> = listed.iter().map(|spot| spot.node).collect();
-    if listed.iter().all(|spot| spot.direct) {
-        return (nodes, Vec::new());
+    let named = if word.is_empty() { Vec::new() } else { named_nodes(scene, nodes) };
+    let listed = spots.iter().filter(|spot| !is_body(scene, spot.node));
+    let nodes: BTreeSet<usize> = listed.clone().map(|spot| spot.node).chain(named.iter().copied()).collect();
+    if listed.clone().all(|spot| spot.direct) {
+        return (nodes.into_iter().collect(), Vec::new());
     }
-    let of_nodes = names_of(scene, table.nodes.iter().flat_map(|list| &list.values));
+    let mut of_nodes = names_of(scene, names.into_iter());
+    named.into_iter().for_each(|node| add_name(of_nodes.entry(node).or_default(), NAMED));
     let sets = nodes.iter().map(|node| of_nodes.get(node).cloned().unwrap_or_default()).collect();
-    (nodes, sets)
+    (nodes.into_iter().collect(), sets)
+}
+
+/// Adds a name to those that cover a node.
+fn add_name(names: &mut String, name: &str) {
+    *names += if names.is_empty() { "" } else { BETWEEN_SETS };
+    *names += name;
 }
 
 /// The names that cover each node, in their order and each once.
@@ -158,9 +170,7 @@ fn names_of<'n>(scene: &Scene, names: impl Iterator<Item = &'n At<String>>) -> B
         let place = scene.place_or_node(name);
         let nodes: BTreeSet<usize> = place.into_iter().flat_map(|place| scene.nodes_of(place)).collect();
         for node in nodes {
-            let names = covered.entry(node).or_default();
-            *names += if names.is_empty() { "" } else { BETWEEN_SETS };
-            *names += name;
+            add_name(covered.entry(node).or_default(), name);
         }
     }
     covered

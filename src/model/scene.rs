@@ -75,9 +75,20 @@ impl<'d> Scene<'d> {
         if list.values.is_empty() {
             report.error::<()>(&list.span, format!("`{key}` is empty"));
         }
+        self.spots_of(key, &list.values, reach, report)
+    }
+
+    /// All nodes that these names cover, each once, in the order of the names.
+    pub fn spots_of(
+        &self,
+        key: &str,
+        names: impl IntoIterator<Item = &'d At<String>>,
+        reach: Reach,
+        report: &mut Report<'d>,
+    ) -> Vec<Spot<'d>> {
         let mut spots = Vec::new();
         let mut seen = HashSet::new();
-        for name in &list.values {
+        for name in names {
             let place = match reach {
                 Reach::Nodes => self.names.find_nodes(name, report),
                 Reach::Parts => self.names.find_in_parts(name, report),

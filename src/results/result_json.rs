@@ -22,9 +22,9 @@ pub const UNMARKED: &str = "result.json.tmp";
 pub enum Status {
     /// The run came to its end, and all expectations are met.
     Done,
-    /// No step could be taken any more; results are valid up to the time named.
+    /// No step could be taken any more, or an equilibrium is unstable; results are valid up to the time named.
     NotConverged,
-    /// The run came to its end, and at least one expectation is missed.
+    /// The run came to its end, and at least one expectation, or the `stop` of a stage, is missed.
     ExpectationMissed,
     /// A signal has stopped the run after a whole step.
     Stopped,
@@ -52,7 +52,7 @@ pub struct RunResult {
     pub status: Status,
     /// The exit code that belongs to the status.
     pub exit_code: u8,
-    /// The reason for the end in one sentence. It is empty when done, unless a path ended before its `stop`.
+    /// The reason for the end in one sentence. It is empty when done.
     pub reason: String,
     /// The time up to which results are valid, if the run stopped early.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -374,6 +374,16 @@ fn grows(modes: usize, rate: f64, fastest: usize) -> String {
     )
 }
 
+impl Warning {
+    /// The time after which results are not valid; `None` where the warning does not say so.
+    pub fn unstable_from(&self) -> Option<f64> {
+        match self {
+            Warning::Unstable(Instability { certain: true, time, .. }) => Some(*time),
+            _ => None,
+        }
+    }
+}
+
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(&match self {

@@ -4,6 +4,7 @@ mod accuracy;
 mod around_a_run;
 mod check_numbers;
 mod cli;
+mod ends;
 mod foreign_input;
 mod instructions;
 mod memory_forecast;

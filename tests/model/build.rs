@@ -304,7 +304,7 @@ tolerance = 0.1
     let model = model.unwrap();
     // The words of the directions, with their quotes.
     let place = |word: &str| text.find(word).map(|start| [start, start + word.len()]).unwrap();
-    let stop = DisplacementTarget { node: 1, dof: 1, value: -0.8, pass: 2, place: place("\"uy\"") };
+    let stop = DisplacementTarget { node: 1, dof: 1, value: -0.8, pass: 2, required: true, place: place("\"uy\"") };
     let path = ArcLength {
         first: model.analysis.nominal_step(),
         stop: Some(stop),
@@ -317,7 +317,14 @@ tolerance = 0.1
     assert_eq!(expect.at, ExpectAt::Analysis);
     assert_eq!(
         expect.when,
-        When::Target(DisplacementTarget { node: 1, dof: 0, value: -0.5, pass: 1, place: place("\"ux\"") })
+        When::Target(DisplacementTarget {
+            node: 1,
+            dof: 0,
+            value: -0.5,
+            pass: 1,
+            required: true,
+            place: place("\"ux\"")
+        })
     );
     assert_eq!(expect.label, "time of analysis where ux of b is -0.5");
     assert!(matches!(everything().analysis.step_length, StepLength::Fixed { .. }));

@@ -11,6 +11,8 @@ pub struct DisplacementTarget {
     pub value: f64,
     /// The number of the crossing that counts, from 1, in either direction.
     pub pass: usize,
+    /// True if the path must reach it.
+    pub required: bool,
     /// The place in the deck that names the degree of freedom: first byte, and the one after the last.
     pub place: [usize; 2],
 }

@@ -36,6 +36,8 @@ pub struct Stop {
     pub value: f64,
     /// The quantity as messages name it.
     pub label: String,
+    /// True if the stage must reach it.
+    pub required: bool,
 }
 
 /// The quantity that ends a stage at a value.

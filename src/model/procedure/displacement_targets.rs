@@ -5,6 +5,7 @@ use crate::places::nodes::Topology;
 use crate::places::place::Place;
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
+use crate::values::flag;
 use base::diagnostic::At;
 use deck::analysis as words;
 use deck::words::Table;
@@ -60,5 +61,6 @@ pub fn displacement_target<'d>(
         );
     }
     let place = [quantity.span.start, quantity.span.end];
-    Some(DisplacementTarget { node, dof, value: value.value, pass, place })
+    let required = flag(&table.required, true);
+    Some(DisplacementTarget { node, dof, value: value.value, pass, required, place })
 }

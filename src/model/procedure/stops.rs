@@ -5,7 +5,7 @@ use crate::places::place::Place;
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
 use crate::stages::CurrentStage;
-use crate::values::keys;
+use crate::values::{flag, keys};
 use base::diagnostic::At;
 use base::names::short;
 use deck::stages as words;
@@ -63,7 +63,7 @@ fn stop<'d>(
     let table: &'d words::Stop = &at.value;
     let [of_node, of_load] = [keys!(table; at, quantity, value), keys!(table; load, work, force)];
     if table.time.is_some() {
-        report.reject_unused("a stop at a time", &[of_node, of_load].concat());
+        report.reject_unused("a stop at a time", &[&of_node[..], &of_load, &keys!(table; required)].concat());
         return None;
     }
     if table.load.is_some() {
@@ -94,7 +94,8 @@ fn stop<'d>(
         return report.error_with(at, message, "it is a component of the rotation vector, which is shorter than π");
     }
     let label = format!("{} of {}", DIRECTIONS[dof], name.value);
-    Some(Stop { quantity: StopQuantity::Displacement([node, dof]), value, label })
+    let required = flag(&table.required, true);
+    Some(Stop { quantity: StopQuantity::Displacement([node, dof]), value, label, required })
 }
 
 fn by_load<'d>(
@@ -108,17 +109,18 @@ fn by_load<'d>(
     let Some((_, found)) = actors.iter().find(|(other, _)| other.value == name.value) else {
         return report.unknown("load of this stage, or support with a motion,", name, known);
     };
+    let required = flag(&table.required, true);
     match (&table.work, &table.force) {
         (Some(_), Some(force)) => report.error(&force.span, format!("{} has `work` or `force`, not both", owner.what)),
         (Some(work), None) if work.value == 0.0 => report.error(&work.span, "`work` must not be 0"),
         (Some(work), None) => {
             let label = format!("the work of {}", name.value);
-            Some(Stop { quantity: StopQuantity::Work(found.clone()), value: work.value, label })
+            Some(Stop { quantity: StopQuantity::Work(found.clone()), value: work.value, label, required })
         }
         (None, Some(_)) => {
             let value = report.positive("force", &table.force)?;
             let label = format!("the force of {}", name.value);
-            Some(Stop { quantity: StopQuantity::Force(found.clone()), value, label })
+            Some(Stop { quantity: StopQuantity::Force(found.clone()), value, label, required })
         }
         (None, None) => report.error(owner.span, format!("{} needs `work` or `force`", owner.what)),
     }

@@ -278,6 +278,7 @@ impl<'d> CurrentStage<'d> {
             quantity: Some(At { value: word(quantity.value)?, span: quantity.span.clone() }),
             value: stop.value.clone(),
             pass: None,
+            required: stop.required.clone(),
         };
         Some(At { value: Table::new(target), span: given.span.clone() })
     }
