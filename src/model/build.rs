@@ -46,6 +46,7 @@ use super::plausibility::angles::check_angles;
 use super::plausibility::cyclic_hardening::check_cyclic_hardening;
 use super::plausibility::loose::check_loose;
 use super::plausibility::node_places::place_nodes;
+use super::plausibility::parts_at_rest::check_parts_at_rest;
 use super::plausibility::proportions::check_proportions;
 use super::plausibility::scaled_loads::check_scaled_loads;
 use super::plausibility::slivers::check_slivers;
@@ -264,6 +265,7 @@ fn build(deck: &Deck, files: Files) -> (Option<Model>, Vec<Diagnostic>) {
     let sound = !report.has_errors();
     if sound {
         check_loose(&model, &mut report);
+        check_parts_at_rest(&model, &mut report);
     }
     (sound.then_some(model), merge_diagnostics(report.into_problems()))
 }

@@ -695,8 +695,47 @@ fn parts_that_nothing_holds_are_said() {
     for more in [String::new(), format!("{gravity}{floor}")] {
         is_silent_about("fall freely", &format!("{two}{more}"));
     }
+    // One of two that fall alike never meets the floor.
+    let alike = initial("all", "velocity = [0.0, 0.0, -4.0]");
+    says(
+        &format!("{two}{gravity}{floor}{alike}"),
+        Severity::Note,
+        &["`mast` starts with the velocity of other parts", "nothing joins it"],
+    );
+    let both = floor.replace("\"stay\"", "[\"stay\", \"mast\"]");
+    is_silent_about("velocity of other parts", &format!("{two}{gravity}{both}{alike}"));
+    let behind = both.replace("normal = [0.0, 0.0, 1.0]", "normal = [0.0, 0.0, -1.0]");
+    says(
+        &format!("{two}{gravity}{behind}"),
+        Severity::Warning,
+        &["everything lies behind the plane", "up to 4.025 deep"],
+    );
+    is_silent_about("behind the plane", &format!("{two}{gravity}{both}"));
     // What flies is meant to, perhaps.
     says(&format!("{two}{gravity}{flies}"), Severity::Note, &["holds `mast` or any other part", "fall freely"]);
+}
+
+/// One of two parts that share a node moves at t = 0, so that the velocity jumps between neighbouring nodes.
+#[test]
+fn a_part_at_rest_beside_one_that_moves_is_said() {
+    let points = "[points]\na = [0.0, 0.0, 0.0]\nb = [0.0, 0.0, 3.0]\nc = [2.0, 0.0, 3.0]\n";
+    let two = format!("{points}{}{}", beam("mast", "\"a\", \"b\"", 2), beam("arm", "\"b\", \"c\"", 2));
+    let moves = |at: &str| format!("{two}{}", initial(at, "velocity = [4.43, 0.0, 0.0]"));
+    says(&moves("arm"), Severity::Note, &["`arm` starts at 4.43", "`mast`, which shares `b` with it, at rest"]);
+    is_silent_about("at rest: the velocity jumps", &moves("all"));
+    is_silent_about("at rest: the velocity jumps", &moves("c"));
+}
+
+/// A relative tolerance above 1 was meant in percent; a mesh in mm makes a model of hundreds of metres.
+#[test]
+fn a_tolerance_in_percent_is_said() {
+    let mast = format!("[points]\na = [0.0, 0.0, 0.0]\nb = [0.0, 0.0, 3.0]\n{}", beam("mast", "\"a\", \"b\"", 2));
+    let expect = |tolerance: &str| {
+        let of = "[[expect]]\nat = \"b\"\nquantity = \"ux\"\ntime = \"end\"\nvalue = 1.0\n";
+        format!("{mast}{}{of}tolerance = {tolerance}\n", initial("mast", "velocity = [1.0, 0.0, 0.0]"))
+    };
+    says(&expect("5"), Severity::Note, &["`tolerance` is 500 % of the expected value"]);
+    is_silent_about("% of the expected value", &expect("0.05"));
 }
 
 /// A weight that acts at once sags to twice its deflection at rest as the ground begins to move. A static stage before, an amplitude or no

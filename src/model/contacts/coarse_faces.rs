@@ -3,6 +3,7 @@
 
 use super::mesh_edges::{MeshEdge, mesh_edges};
 use super::points::Finder;
+use super::sight::MOST_POINTS;
 use crate::places::place::Place;
 use crate::report::Owner;
 use crate::values::vec3_or_zero;
@@ -73,9 +74,9 @@ pub fn warn_of_long_solids<'d>(
         );
         let points = (length / width - DIGITS).ceil() - 1.0;
         let border = format!("surface = {{ part = \"{}\", edges = true }}", part.value);
-        let hint = format!(
-            "give `points` = {points} or more, or a finer mesh; the border of a flat sheet needs a separate contact, {border}"
-        );
+        let points =
+            if points <= MOST_POINTS as f64 { format!("`points` = {points} or more, or ") } else { String::new() };
+        let hint = format!("give {points}a finer mesh; the border of a flat sheet needs a separate contact, {border}");
         finder.report.warn(owner.span, message, hint);
     }
 }

@@ -281,10 +281,11 @@ fn check_start(
     report: &mut Report,
 ) {
     let center = topology.x(node);
-    let gap = |point: &ContactPoint| {
+    let distance = |point: &ContactPoint| {
         let x: Vec3 = point.nodes().iter().zip(point.weights).map(|(&node, w)| w * topology.x(node)).sum();
-        surface.distance(&(x - center)) - point.radius
+        surface.distance(&(x - center))
     };
+    let gap = |point: &ContactPoint| distance(point) - point.radius;
     let own = std::iter::once(node).chain(solids.iter().map(|one| one.node));
     let own: Vec<Node> = own.map(|node| Node::at_rest(topology.x(node))).collect();
     let solids_there: Vec<ConvexBody> =
@@ -293,6 +294,14 @@ fn check_start(
     let least = points.iter().map(gap).fold(of_convex, f64::min);
     let nodes = points.iter().map(|point| point.nodes[0]).chain(solids.iter().map(|one| one.node));
     let size = nodes.map(|node| topology.x(node).norm()).fold(center.norm(), f64::max);
+    let outermost = solids.iter().map(|one| surface.distance(&(topology.x(one.node) - center)));
+    let outermost = points.iter().map(distance).chain(outermost).fold(f64::NEG_INFINITY, f64::max);
+    if matches!(surface.shape, SurfaceShape::Plane(_)) && outermost < 0.0 && least < -1e-6 * size {
+        let message =
+            format!("{} begins closed: everything lies behind the plane, up to {} deep", owner.what, short(-least));
+        report.warn(owner.span, message, "its normal points away from what should land on it: turn it round");
+        return;
+    }
     warn_closed(owner, least, size, at_rest, report);
 }
 

@@ -1,6 +1,6 @@
 //! The points of `[[contacts]]` that may touch a surface: nodes, places between them, corners of bodies.
 
-use crate::contacts::sight::{Opening, Sight};
+use crate::contacts::sight::{MOST_POINTS, Opening, Sight};
 use crate::data::{NodeWeights, lattice};
 use crate::places::nodes::{Nodes, Topology};
 use crate::places::place::Place;
@@ -19,9 +19,6 @@ use mechanics::solids::Touching;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::sync::Arc;
-
-/// Largest number of points between two nodes; more are taken for a typing error.
-const MOST_POINTS: usize = 100;
 
 /// A point that may touch, as found.
 pub(super) struct Touch {

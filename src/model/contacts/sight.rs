@@ -5,6 +5,9 @@ use base::names::short;
 use mechanics::elements::contact::{Surface, Toucher, passing_width};
 use std::collections::BTreeSet;
 
+/// Largest number of points between two nodes; more are taken for a typing error.
+pub const MOST_POINTS: usize = 100;
+
 /// The widest opening between the points of a body or a part.
 pub struct Opening {
     /// Its width.
@@ -51,8 +54,8 @@ impl Sight {
             let whole = opening.width * (points.unwrap_or(0) + 1) as f64;
             let between = (whole / (width + opening.width - free(&opening)) - DIGITS).ceil() - 1.0;
             let hint = match opening.divides {
-                true => format!("give `points` = {between} or more, or a finer mesh"),
-                false => "give a finer mesh".to_owned(),
+                true if between <= MOST_POINTS as f64 => format!("give `points` = {between} or more, or a finer mesh"),
+                _ => "give a finer mesh".to_owned(),
             };
             report.warn(owner.span, message, hint);
             return;

@@ -16,8 +16,7 @@ pub fn check_loose(model: &Model, report: &mut Report) {
     let ground = groups.of(model.nodes.len());
     let mut is_free = vec![true; model.nodes.len() + 1];
     for (node, data) in model.nodes.iter().enumerate() {
-        let moves = data.v.norm() + data.omega.norm() > 0.0 || data.given.iter().any(Option::is_some);
-        if moves {
+        if data.v.norm() + data.omega.norm() > 0.0 || data.given.iter().any(Option::is_some) {
             is_free[groups.of(node)] = false;
         }
     }
@@ -50,6 +49,7 @@ pub fn check_loose(model: &Model, report: &mut Report) {
         }
         return;
     }
+    note_alike(model, &all, (&mut groups, ground), report);
     for (name, node) in all {
         let group = groups.of(node);
         if group == ground || !std::mem::take(&mut is_free[group]) {
@@ -63,6 +63,22 @@ pub fn check_loose(model: &Model, report: &mut Report) {
         let message = format!("nothing joins `{name}` to the parts that supports hold: it {does}");
         let hint = "name a point of it in another part, or join it by `[[joints]]`, `[[ties]]`, `[[attachments]]`, `[[links]]` or `[[contacts]]`";
         report.warn(&place(node), message, hint);
+    }
+}
+
+/// Notes parts that start with the velocity of parts in the group of the ground, which nothing joins to them.
+fn note_alike(model: &Model, all: &[(&str, usize)], (groups, ground): (&mut Groups, usize), report: &mut Report) {
+    let v = |node: usize| model.nodes[node].v;
+    let (held, others): (Vec<_>, Vec<_>) = all.iter().partition(|(_, node)| groups.of(*node) == ground);
+    let alike = |node: usize| v(node).norm() > 0.0 && held.iter().any(|(_, other)| v(*other) == v(node));
+    for (name, node) in others.into_iter().filter(|(_, node)| alike(*node)) {
+        let place = model.nodes[node].place.map_or(0..0, |[from, to]| from..to);
+        let message = format!("`{name}` starts with the velocity of other parts, and nothing joins it to them");
+        report.note(
+            &place,
+            message,
+            "join it by `[[attachments]]`, `[[joints]]` or `[[contacts]]`, if it belongs to them",
+        );
     }
 }
 

@@ -9,6 +9,7 @@ pub mod long_chains;
 pub mod loose;
 pub mod node_places;
 pub mod overlaps;
+pub mod parts_at_rest;
 pub mod proportions;
 pub mod record_units;
 pub mod scaled_loads;

@@ -37,6 +37,26 @@ pub fn check_proportions(scene: &Scene, nodes: &Nodes, report: &mut Report) {
         }
     }
     check_sections(scene, report);
+    check_mesh_size(scene, nodes, report);
+}
+
+/// Notes a mesh larger than structures are: its file is in another unit of length.
+fn check_mesh_size(scene: &Scene, nodes: &Nodes, report: &mut Report) {
+    /// Few structures are longer, in m; a part of 0.3 m in mm counts as such.
+    const LARGE: f64 = 300.0;
+    let (Some(mesh), Some(units)) = (&scene.deck.mesh, &scene.deck.units) else { return };
+    let places = || (0..nodes.list.len()).map(|node| nodes.x(node));
+    let corner = |pick: fn(&Vec3, &Vec3) -> Vec3| places().reduce(|a, b| pick(&a, &b)).unwrap_or_default();
+    let extent = (corner(Vec3::sup) - corner(Vec3::inf)).norm();
+    let in_metres = extent * units.value.scales()[0];
+    if mesh.scale.is_none() && in_metres > LARGE {
+        let message = format!("the model extends over {} m in the units {}", short(in_metres), units.value.label());
+        report.note(
+            &mesh.span,
+            message,
+            "if the mesh file is in mm, give `scale = 0.001` in `[mesh]`, or other `units`",
+        );
+    }
 }
 
 fn check_shell(part: &DeckPart, thickness: f64, extent: &Extent, report: &mut Report) {
