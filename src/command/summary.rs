@@ -15,7 +15,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(
     after_help = "Each column of each table has its least and its largest value, with the time and what the row is about, and the value \
-of largest magnitude at the last time. Columns that are zero throughout are left out of the text.
+of largest magnitude at the last time. Tables of modes and responses are about one state: their values have the mode, frequency or speed. Columns that are zero throughout are left out of the text.
 
 A curve goes over the rows of two tables: `--curve nodes.csv:tip:ux reactions.csv:*:fx`. An axis is FILE:NAME:COLUMN; NAME is that of the row, \
 joined by blanks where a row has several, and `*` in it stands for anything: such rows are summed. `-` in front changes the sign. The text has \
@@ -85,7 +85,7 @@ pub fn summary(args: &SummaryArgs) -> Result<(), Exit> {
         let mut curve = Curve::read(&args.dir, [x, y]).map_err(unreadable)?;
         if let Some(stage) = &args.stage {
             curve = curve.in_stage(stage);
-            if curve.time.is_empty() {
+            if curve.at.is_empty() {
                 complain(&format!("no row is of a stage `{stage}`"));
                 return Err(Exit::InputOutput);
             }
@@ -115,10 +115,13 @@ const DIGITS: usize = 7;
 
 /// Filters both columns of a curve.
 fn smoothen(curve: &mut Curve, filter: &Filter) -> Result<(), String> {
-    let sampling = TimeSampling::of(&curve.time)?;
+    if curve.over != "time" {
+        return Err(format!("a filter goes over time, and these rows over {}: leave out `--filter`", curve.over));
+    }
+    let sampling = TimeSampling::of(&curve.at)?;
     for values in [&mut curve.x, &mut curve.y] {
-        let smooth = filter.low_pass.apply(&sampling, filter.second, &curve.time, values)?;
-        *values = sampling.at_rows(&smooth, &curve.time);
+        let smooth = filter.low_pass.apply(&sampling, filter.second, &curve.at, values)?;
+        *values = sampling.at_rows(&smooth, &curve.at);
     }
     Ok(())
 }
@@ -131,11 +134,11 @@ fn print_curve(curve: &Curve, [x, y]: [&CurveAxis; 2], format: Format) -> Result
             let head = if curve.stage.is_empty() { "" } else { "stage," };
             let row = |k: usize| {
                 let stage = curve.stage.get(k).map_or(String::new(), |stage| quoted(stage) + ",");
-                let [time, x, y] = [curve.time[k], curve.x[k], curve.y[k]].map(shortest);
-                format!("{stage}{time},{x},{y}\n")
+                let [at, x, y] = [curve.at[k], curve.x[k], curve.y[k]].map(shortest);
+                format!("{stage}{at},{x},{y}\n")
             };
-            let rows: String = (0..curve.time.len()).map(row).collect();
-            print(&format!("{head}time,{},{}\n{rows}", quoted(&x.word), quoted(&y.word)))
+            let rows: String = (0..curve.at.len()).map(row).collect();
+            print(&format!("{head}{},{},{}\n{rows}", curve.over, quoted(&x.word), quoted(&y.word)))
         }
         Format::Json => {
             let json = serde_json::to_string_pretty(curve).map_err(|_| Exit::Internal)?;
@@ -147,8 +150,10 @@ fn print_curve(curve: &Curve, [x, y]: [&CurveAxis; 2], format: Format) -> Result
 /// The peaks of a curve, the slope of its first step, and the work along it, for each stage.
 fn curve_text(curve: &Curve, [x, y]: [&CurveAxis; 2]) -> String {
     let digits = |value: f64| to_digits(value, DIGITS);
-    let point = |k: usize| format!("{} at {} (t = {})", digits(curve.y[k]), digits(curve.x[k]), digits(curve.time[k]));
-    let mut lines = vec![format!("{} over {}: {} points", y.word, x.word, curve.time.len())];
+    let over = if curve.over == "time" { "t" } else { &curve.over };
+    let point =
+        |k: usize| format!("{} at {} ({over} = {})", digits(curve.y[k]), digits(curve.x[k]), digits(curve.at[k]));
+    let mut lines = vec![format!("{} over {}: {} points", y.word, x.word, curve.at.len())];
     for marks in curve.marks() {
         let CurveMarks { stage, extremes: [most, least, last], first_slope, work } = marks;
         if !stage.is_empty() {
@@ -174,6 +179,10 @@ fn text(summary: &ResultSummary, filter: Option<&LowPass>) -> String {
         let at = if extremum.at.is_empty() { String::new() } else { format!("{}, ", extremum.at) };
         format!("{} ({at}t = {})", to_digits(extremum.value, DIGITS), to_digits(extremum.time, DIGITS))
     };
+    let at_state = |extremum: &Extremum| {
+        let at = if extremum.at.is_empty() { String::new() } else { format!(" ({})", extremum.at) };
+        format!("{}{at}", to_digits(extremum.value, DIGITS))
+    };
     let mut lines = vec![match summary.reason.as_str() {
         "" => summary.status.clone(),
         reason => format!("{}: {reason}", summary.status),
@@ -189,8 +198,11 @@ fn text(summary: &ResultSummary, filter: Option<&LowPass>) -> String {
             table = &column.table;
             lines.push(table.to_owned());
         }
-        let ColumnSummary { column, least, largest, end, .. } = column;
-        lines.push(format!("  {column}: {} to {}, at the end {}", value(least), value(largest), value(end)));
+        let ColumnSummary { column, least, largest, end, is_over_time, .. } = column;
+        lines.push(match is_over_time {
+            true => format!("  {column}: {} to {}, at the end {}", value(least), value(largest), value(end)),
+            false => format!("  {column}: {} to {}", at_state(least), at_state(largest)),
+        });
     }
     lines.push(String::new());
     lines.join("\n")

@@ -4,7 +4,7 @@ use super::disk::at;
 use super::table::{BETWEEN_SETS, CASE, SET, STAGE, names_subject};
 use super::table_reader::{TableReader, fields, number, text};
 use model::ENVELOPE_ENDS;
-use serde::Serialize;
+use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::borrow::Cow;
 use std::io;
 use std::ops::Range;
@@ -64,20 +64,33 @@ impl FromStr for CurveAxis {
 }
 
 /// A curve over the rows of the tables.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Curve {
     /// The stages; empty in a deck without stages.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub stage: Vec<String>,
-    /// The times.
-    pub time: Vec<f64>,
+    /// The quantity over which the rows go: "time", "frequency" or "speed".
+    pub over: String,
+    /// Its values.
+    pub at: Vec<f64>,
     /// The values of the first axis.
     pub x: Vec<f64>,
     /// The values of the second axis.
     pub y: Vec<f64>,
     /// The largest value of the first axis over all stages.
-    #[serde(skip)]
     scale: f64,
+}
+
+impl Serialize for Curve {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut all = serializer.serialize_map(None)?;
+        if !self.stage.is_empty() {
+            all.serialize_entry("stage", &self.stage)?;
+        }
+        all.serialize_entry(&self.over, &self.at)?;
+        all.serialize_entry("x", &self.x)?;
+        all.serialize_entry("y", &self.y)?;
+        all.end()
+    }
 }
 
 /// The marks of a curve in one stage.
@@ -97,25 +110,30 @@ impl Curve {
     /// Reads a curve from a folder of results.
     ///
     /// # Errors
-    /// A table cannot be read, has no such column or names, or both tables have rows at other times; the error names it.
+    /// A table cannot be read, has no such column or names, or has several rows of one name at one time. Both tables have rows at other times. The error
+    /// names the table.
     pub fn read(folder: &Path, [x, y]: [&CurveAxis; 2]) -> io::Result<Curve> {
         let (x_points, y_points) = (x.read(folder)?, y.read(folder)?);
-        if (&x_points.time, &x_points.stage) != (&y_points.time, &y_points.stage) {
-            let why = format!("{} and {} have rows at other times, so neither goes over the other", x.file, y.file);
+        if (&x_points.over, &x_points.at, &x_points.stage) != (&y_points.over, &y_points.at, &y_points.stage) {
+            let [a, b] = [&x_points.over, &y_points.over];
+            let rows = if a == b { format!("at other {a}s") } else { format!("over {a} and over {b}") };
+            let why = format!("{} and {} have rows {rows}, so neither goes over the other", x.file, y.file);
             return Err(at(folder, io::Error::other(why)));
         }
-        let scale = x_points.value.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        Ok(Curve { stage: x_points.stage, time: x_points.time, x: x_points.value, y: y_points.value, scale })
+        let Points { stage, over, at, value: x } = x_points;
+        let scale = x.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        Ok(Curve { stage, over, at, x, y: y_points.value, scale })
     }
 
     /// The curve in one stage; empty without such a stage.
     pub fn in_stage(&self, stage: &str) -> Curve {
         let is_of = |place: &usize| self.stage.get(*place).is_some_and(|own| own == stage);
-        let places: Vec<usize> = (0..self.time.len()).filter(is_of).collect();
+        let places: Vec<usize> = (0..self.at.len()).filter(is_of).collect();
         let take = |of: &[f64]| places.iter().map(|&place| of[place]).collect();
         Curve {
             stage: vec![stage.to_owned(); places.len()],
-            time: take(&self.time),
+            over: self.over.clone(),
+            at: take(&self.at),
             x: take(&self.x),
             y: take(&self.y),
             scale: self.scale,
@@ -124,7 +142,7 @@ impl Curve {
 
     /// The marks of each stage.
     pub fn marks(&self) -> Vec<CurveMarks> {
-        let count = self.time.len();
+        let count = self.at.len();
         let begins = (0..count).filter(|&k| k == 0 || self.stage.get(k) != self.stage.get(k - 1));
         let mut begins: Vec<usize> = begins.collect();
         begins.extend((count > 0).then_some(count));
@@ -151,24 +169,26 @@ impl Curve {
 #[derive(Debug, Default)]
 struct Points {
     stage: Vec<String>,
-    time: Vec<f64>,
+    over: String,
+    at: Vec<f64>,
     value: Vec<f64>,
 }
 
 impl CurveAxis {
-    /// The values, summed over all rows of the same stage, step and time.
+    /// The values, summed over all rows of the same stage, step and time, and of the same frequency or speed in tables over these.
     fn read(&self, folder: &Path) -> io::Result<Points> {
         let path = folder.join(&self.file);
         let mut rows = TableReader::open(&path)?;
         let place = |rows: &TableReader, name: &str| rows.column(name).ok_or_else(|| no_column(rows, &path, name));
         let (time_at, place_of_value) = (place(&rows, "time")?, place(&rows, &self.column)?);
+        let over_at = rows.abscissa().unwrap_or(time_at);
         let [step_at, stage_at, set_at] = ["step", STAGE, SET].map(|name| rows.column(name));
         let width = rows.header.len();
         let keys: Vec<usize> = (0..width).filter(|&key| rows.is_key(key) && names_subject(&rows.header[key])).collect();
         // The load case stands before the subject.
         let first = keys.iter().take_while(|&&key| rows.header[key] == CASE).count();
-        let (mut points, mut found) = (Points::default(), 0);
-        let mut before = None;
+        let (mut points, mut found) = (Points { over: rows.header[over_at].clone(), ..Points::default() }, 0);
+        let (mut before, mut has_own) = (None, false);
         let sign = if self.is_negative { -1.0 } else { 1.0 };
         let mut ragged = None;
         while let Some(row) = rows.next_row()? {
@@ -177,11 +197,11 @@ impl CurveAxis {
                 ragged = Some(row.len());
                 break;
             }
-            let (stage, time) = (stage_at.map(|stage| text(row[stage])), number(row[time_at]));
-            let now = (step_at.map(|step| number(row[step]).to_bits()), time);
+            let (stage, over) = (stage_at.map(|stage| text(row[stage])), number(row[over_at]));
+            let now = (step_at.map(|step| number(row[step]).to_bits()), number(row[time_at]), over);
             if before != Some(now) || points.stage.last().map(String::as_str) != stage.as_deref() {
-                before = Some(now);
-                points.time.push(time);
+                (before, has_own) = (Some(now), false);
+                points.at.push(over);
                 points.value.push(0.0);
                 points.stage.extend(stage.map(Cow::into_owned));
             }
@@ -194,8 +214,13 @@ impl CurveAxis {
             let of_envelope =
                 keys[..first].iter().any(|&key| ENVELOPE_ENDS.iter().any(|end| text(row[key]).ends_with(end)));
             let names = set_at.filter(|_| !of_envelope).map(|set| text(row[set])).unwrap_or_default();
-            let own = words.get(first).map_or("", Cow::as_ref);
-            if is_meant(own) || names.split(BETWEEN_SETS).filter(|set| !set.is_empty()).any(is_meant) {
+            let is_own = is_meant(words.get(first).map_or("", Cow::as_ref));
+            if is_own && std::mem::replace(&mut has_own, true) && !self.name.contains('*') {
+                let why =
+                    format!("several rows are of `{}` at {} {over}; `*` in a name sums rows", self.name, points.over);
+                return Err(at(&path, io::Error::other(why)));
+            }
+            if is_own || names.split(BETWEEN_SETS).filter(|set| !set.is_empty()).any(is_meant) {
                 found += 1;
                 if let Some(sum) = points.value.last_mut() {
                     *sum += sign * number(row[place_of_value]);
@@ -205,14 +230,16 @@ impl CurveAxis {
         if let Some(count) = ragged {
             return Err(rows.ragged(count));
         }
-        if found == 0 {
-            let why = match keys.is_empty() {
-                true => "its rows are about the whole scene: write FILE:COLUMN".to_owned(),
-                false => format!("no row is about `{}`", self.name),
-            };
-            return Err(at(&path, io::Error::other(why)));
-        }
-        Ok(points)
+        if found > 0 { Ok(points) } else { Err(self.no_row(&path, keys.is_empty())) }
+    }
+
+    /// The error on rows that are missing.
+    fn no_row(&self, path: &Path, of_scene: bool) -> io::Error {
+        let why = match of_scene {
+            true => "its rows are about the whole scene: write FILE:COLUMN".to_owned(),
+            false => format!("no row is about `{}`", self.name),
+        };
+        at(path, io::Error::other(why))
     }
 }
 
@@ -263,6 +290,16 @@ mod tests {
         assert!(error("nodes.csv:ux").contains("no row is about ``"));
         std::fs::write(dir.path().join("steps.csv"), "step,time,iterations\n0,0.0,1\n").unwrap();
         assert!(error("steps.csv:iterations").contains("other times"));
+        // Rows at one time go over the frequency, and rows of one name are no sum.
+        let text = "step,time,frequency,node,ux\n0,1.0,5.0,a,0.1\n0,1.0,5.0,b,0.7\n0,1.0,6.0,a,0.3\n0,1.0,6.0,b,0.7\n";
+        std::fs::write(dir.path().join("response.csv"), text).unwrap();
+        let [over, ux] = ["response.csv:a:frequency", "response.csv:a:ux"].map(axis);
+        let curve = Curve::read(dir.path(), [&over, &ux]).unwrap();
+        assert_eq!((&*curve.over, &curve.at, &curve.y), ("frequency", &vec![5.0, 6.0], &vec![0.1, 0.3]));
+        assert_eq!(serde_json::to_string(&curve).unwrap(), r#"{"frequency":[5.0,6.0],"x":[5.0,6.0],"y":[0.1,0.3]}"#);
+        assert!(error("response.csv:a:ux").contains("over frequency and over time"));
+        std::fs::write(dir.path().join("contacts.csv"), "step,time,contact,fx\n0,0.0,a,1.0\n0,0.0,a,2.0\n").unwrap();
+        assert!(error("contacts.csv:a:fx").contains("several rows are of `a` at time 0"));
         assert!("nodes.csv".parse::<CurveAxis>().is_err() && "nodes:tip:ux".parse::<CurveAxis>().is_err());
         // The end of a stage and the begin of the next are two points, and a change by rounding has no slope.
         let text =
@@ -274,7 +311,7 @@ mod tests {
         let stages: Vec<_> = curve.marks().into_iter().map(|of| (of.stage, of.extremes, of.first_slope)).collect();
         assert_eq!(stages, [("weight".into(), [0, 1, 1], None), ("push".into(), [2, 3, 3], Some(-1.0))]);
         let weight = curve.in_stage("weight");
-        assert_eq!((weight.time.len(), weight.marks()[0].first_slope), (2, None));
+        assert_eq!((weight.at.len(), weight.marks()[0].first_slope), (2, None));
         assert!(curve.in_stage("pull").marks().is_empty());
         for (pattern, name, is) in [("*", "", true), ("a*c", "abc", true), ("a*c", "ab", false), ("*b*", "abc", true)] {
             assert_eq!(matches(pattern, name), is, "{pattern} {name}");

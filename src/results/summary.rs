@@ -12,6 +12,7 @@ use base::names::to_digits;
 use base::text_file::read_regular;
 use serde::Serialize;
 use serde_json::Value;
+use solve::Wanted;
 use std::collections::HashMap;
 use std::io;
 use std::path::Path;
@@ -48,6 +49,9 @@ pub struct ColumnSummary {
     pub largest: Extremum,
     /// The value of largest magnitude at the last time.
     pub end: Extremum,
+    /// False in a table about one state, of modes or of a response.
+    #[serde(skip)]
+    pub is_over_time: bool,
 }
 
 /// A value with its place.
@@ -57,7 +61,7 @@ pub struct Extremum {
     pub value: f64,
     /// Its time.
     pub time: f64,
-    /// The subject of its row; empty for the whole scene.
+    /// The subject of its row, with the frequency or speed in tables over these; empty for the whole scene.
     pub at: String,
 }
 
@@ -92,10 +96,12 @@ impl ResultSummary {
                 }
                 _ => of_table(table.file, rows, &mut apart)?,
             };
-            columns.extend(of_table.into_iter().filter(|column| {
+            let is_over_time = table.needs != Wanted::MODES;
+            let taken = of_table.into_iter().filter(|column| {
                 let name = column.column.split(" (").next().unwrap_or_default();
                 takes(&column.table, name)
-            }));
+            });
+            columns.extend(taken.map(|column| ColumnSummary { is_over_time, ..column }));
         }
         if result.is_null() && !TABLES.iter().any(|table| is_there(table.file)) {
             return Err(at(folder, io::Error::other("no results: neither a table nor result.json")));
@@ -152,13 +158,17 @@ fn rows_apart(steps: usize) -> String {
 /// The extremes of all columns of numbers of a table; none where it has no rows. `apart` grows to the largest number of steps from row to row.
 fn of_table(file: &str, mut rows: TableReader, apart: &mut usize) -> io::Result<Vec<ColumnSummary>> {
     let Some(time_at) = rows.column("time") else { return Ok(Vec::new()) };
-    let is_number = |place: &usize| !rows.is_key(*place) && *place != time_at && rows.header[*place] != "step";
+    let over = rows.abscissa();
+    let is_number = |place: &usize| {
+        !rows.is_key(*place) && *place != time_at && rows.header[*place] != "step" && Some(*place) != over
+    };
     let (keys, places): (Vec<usize>, Vec<usize>) = (
         (0..rows.header.len()).filter(|&place| rows.is_key(place) && rows.header[place] != SET).collect(),
         (0..rows.header.len()).filter(is_number).collect(),
     );
     let names: Vec<String> = places.iter().map(|&place| rows.header[place].clone()).collect();
     let width = rows.header.len();
+    let over = over.map(|place| (place, rows.header[place].clone()));
     // Rows of reactions hold forces or moments in one column.
     let direction = rows.column("direction");
     let kinds = if direction.is_some() { &[" (forces)", " (moments)"][..] } else { &[""] };
@@ -180,7 +190,12 @@ fn of_table(file: &str, mut rows: TableReader, apart: &mut usize) -> io::Result<
         // A load that falls is at one time more than once; the last rows are those of the end.
         let begins = time != last;
         last = time;
-        let at = || keys.iter().map(|&key| text(row[key]).into_owned()).collect::<Vec<_>>().join(" ");
+        let at = || {
+            let words = keys.iter().map(|&key| text(row[key]).into_owned());
+            let words = words.collect::<Vec<_>>().join(" ");
+            let over = over.iter().map(|(place, name)| format!("{name} = {}", to_digits(number(row[*place]), 7)));
+            (!words.is_empty()).then_some(words).into_iter().chain(over).collect::<Vec<_>>().join(", ")
+        };
         let kind = direction.map_or(0, |place| usize::from(row[place].starts_with(b"r")));
         for (extremes, &place) in found[kind].iter_mut().zip(&places) {
             note(extremes, number(row[place]), time, begins, &at);
@@ -191,7 +206,7 @@ fn of_table(file: &str, mut rows: TableReader, apart: &mut usize) -> io::Result<
     }
     let summary = |(name, extremes): (String, Option<[Extremum; 3]>)| {
         let [least, largest, end] = extremes?;
-        Some(ColumnSummary { table: file.to_owned(), column: name, least, largest, end })
+        Some(ColumnSummary { table: file.to_owned(), column: name, least, largest, end, is_over_time: true })
     };
     let named = |kind: &str| names.iter().map(|name| format!("{name}{kind}")).collect::<Vec<_>>();
     Ok(kinds
@@ -269,7 +284,7 @@ fn filtered(
     }
     let summary = |(name, extremes): (String, Option<[Extremum; 3]>)| {
         let [least, largest, end] = extremes?;
-        Some(ColumnSummary { table: file.to_owned(), column: name, least, largest, end })
+        Some(ColumnSummary { table: file.to_owned(), column: name, least, largest, end, is_over_time: true })
     };
     Ok(columns.into_iter().zip(found).filter_map(summary).collect())
 }

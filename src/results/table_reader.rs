@@ -97,6 +97,12 @@ impl TableReader {
         self.keys.get(place).copied().unwrap_or(false)
     }
 
+    /// The place of the frequency or speed of rows at one time: of a column of numbers before a key.
+    pub fn abscissa(&self) -> Option<usize> {
+        let first = self.header.iter().position(|name| !["step", "time", STAGE, CASE].contains(&name.as_str()))?;
+        (!self.is_key(first) && self.keys[first..].contains(&true)).then_some(first)
+    }
+
     /// The next row, without its line break; `None` where no whole one is left.
     ///
     /// # Errors

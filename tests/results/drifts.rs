@@ -99,3 +99,25 @@ fn modes_are_listed_in_the_terminal() {
     let log = fs::read_to_string(folder.path().join("d.out/run.log")).unwrap();
     assert!(log.contains("  mode  frequency"), "{log}");
 }
+
+/// A response has one time: its summary names the frequency of a peak, and its curves go over the frequency.
+#[test]
+fn a_response_is_summed_up_over_its_frequency() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let deck = "[analysis]\nkind = \"frequency-response\"\nfrequencies = [0.5, 1.0, 2.0]\n[[bodies]]\nname = \"a\"\ncenter = [1.0, 0.0, 0.0]\nmass = 1.0\n\
+        inertia = [1.0, 1.0, 1.0]\n[[links]]\nname = \"k\"\nfrom = { ground = [0.0, 0.0, 0.0] }\nto = { body = \"a\" }\nstiffness = 40.0\ndamping = 1.0\n\
+        [[loads]]\nat = \"a\"\nforce = [1.0, 0.0, 0.0]\namplitude = \"shake\"\n[amplitudes.shake]\nkind = \"harmonic\"\n";
+    fs::write(at.join("r.toml"), deck).unwrap();
+    told(at, &["r.toml", "--quiet"], 0);
+    let text = told(at, &["summary", "r.out", "--only", "response.csv:ux"], 0);
+    assert!(text.contains("(a, frequency = 1)\n") && !text.contains("at the end") && !text.contains("t = "), "{text}");
+    let curve = ["summary", "r.out", "--curve", "response.csv:a:frequency", "response.csv:a:ux"];
+    let text = told(at, &curve, 0);
+    assert!(text.contains("3 points") && text.contains("at 1 (frequency = 1)"), "{text}");
+    assert!(
+        told(at, &[&curve[..], &["--format", "csv"]].concat(), 0).starts_with("frequency,response.csv:a:frequency,")
+    );
+    let filtered = told(at, &[&curve[..], &["--filter", "butterworth:1"]].concat(), 2);
+    assert!(filtered.contains("a filter goes over time"), "{filtered}");
+}
