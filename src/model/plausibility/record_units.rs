@@ -1,6 +1,6 @@
-//! Records in other units than the deck. Headers of data bases give the unit; values are converted where the deck has `units` and no scale.
+//! Records in other units than the deck. Headers of data bases give the unit; values are converted where the deck has `units`.
 
-use super::shaking::{BareRecords, Use, is_converted_twice, is_factor, is_too_strong};
+use super::shaking::{BareRecords, Use, is_converted_twice, is_too_strong};
 use crate::record::{MotionQuantity, RecordUnit};
 use crate::records::Record;
 use crate::report::Report;
@@ -102,7 +102,7 @@ pub fn shakes_alone(deck: &Deck, index: usize) -> bool {
 }
 
 /// The factor from the unit of a record to the units of the deck. `None` if the deck has no `units`. Without `unit`, a `scale` of the amplitude
-/// replaces it, and so does a scale of the motion that equals it. Another scale of the motion multiplies the whole record.
+/// replaces it. The scale of a motion multiplies the whole record.
 pub fn conversion(deck: &Deck, index: usize, record: &Record) -> Option<f64> {
     let (name, words) = &deck.amplitudes.0[index];
     let (quantity, si) = record.unit.as_ref()?.known?;
@@ -110,10 +110,8 @@ pub fn conversion(deck: &Deck, index: usize, record: &Record) -> Option<f64> {
     let is_this = |used: &Use| used.amplitude.as_ref().is_some_and(|own| own.value == name.value);
     let used: Vec<Use> = uses(deck).into_iter().filter(is_this).collect();
     let factor = si * time.powi(quantity.power_of_time()) / length;
-    let leaves =
-        words.scale.is_none() && !used.iter().any(|used| used.scale.is_some_and(|scale| is_factor(scale, factor)));
     let is_right = used.iter().all(|used| used.quantity == quantity);
-    ((leaves || words.unit.is_some()) && is_right && !used.is_empty()).then_some(factor)
+    ((words.scale.is_none() || words.unit.is_some()) && is_right && !used.is_empty()).then_some(factor)
 }
 
 /// Notes that a record is converted, unless it is in the units of the deck already.

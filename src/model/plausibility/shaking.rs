@@ -129,11 +129,12 @@ fn largest(record: &Record) -> f64 {
 }
 
 /// True for a scale that is this factor between units, rounded.
-pub fn is_factor(scale: f64, factor: f64) -> bool {
+fn is_factor(scale: f64, factor: f64) -> bool {
     (scale.abs() / factor - 1.0).abs() < ROUNDED
 }
 
-/// Warns of a record that two of the header or `unit`, the scale of the amplitude and the scale of its use convert. True if it does.
+/// Refuses a record that its header converts, and a scale of its use again: a deck may mean either. Warns where two of `unit`, the scale of the
+/// amplitude and the scale of its use convert. True if it does.
 pub fn is_converted_twice(
     deck: &Deck,
     used: &Use,
@@ -158,6 +159,15 @@ pub fn is_converted_twice(
         units.value.label(),
         short(conversions[0])
     );
-    report.warn(used.place, message, "leave that scale out, or give a factor on the whole record, such as 1.5");
+    if is_converted && words.unit.is_none() {
+        let hint = format!(
+            "leave that scale out; or give `unit = \"{}\"` in the amplitude, if the whole record is to be {} times as strong",
+            unit.name.to_lowercase(),
+            short(conversions[0])
+        );
+        report.error_with::<()>(used.place, message, hint);
+    } else {
+        report.warn(used.place, message, "leave that scale out, or give a factor on the whole record, such as 1.5");
+    }
     true
 }
