@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::analysis::DisplacementTarget;
-use super::words::{Maybe, Table};
+use super::words::{Maybe, Table, TimeOrEnd};
 
 /// A value that is checked at the end of the run; a miss ends it with exit code 5.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -28,8 +28,8 @@ pub struct Expect {
     /// In a linear analysis with `[[load_cases]]`, instead of `time`: name of a load case or combination. With `peak` the extreme is taken
     /// over all cases instead.
     pub case: Maybe<String>,
-    /// Time of the value; with arc-length control, the first time the load reaches it.
-    pub time: Maybe<f64>,
+    /// Time of the value, or "end" for that of the run, or of its `stage`; with arc-length control, the first time the load reaches it.
+    pub time: Maybe<TimeOrEnd>,
     /// With arc-length control, instead of `time`: where a displacement passes a value. A step ends there.
     pub when: Maybe<Table<DisplacementTarget>>,
     /// Instead of `time`, in a frequency response: the frequency, which is computed besides those of `[analysis]`. The quantity is then a
@@ -37,13 +37,14 @@ pub struct Expect {
     pub frequency: Maybe<f64>,
     /// An extreme over the whole run, or over all frequencies, instead of `time`.
     pub peak: Maybe<Peak>,
-    /// Name of a stage: the value is that at its end, or with `peak` an extreme in it.
+    /// Name of a stage. A `value` is that at its end. `peak` and bounds take an extreme of the stage, and the inherited state counts. With
+    /// `time = "end"` a bound is one of the value at the end.
     pub stage: Maybe<String>,
     /// The expected value. Left out with a bound.
     pub value: Maybe<f64>,
-    /// Lower bound, instead of `value` and its tolerance; over the whole run where neither `time` nor `peak` says when.
+    /// Lower bound, instead of `value` and its tolerance; over the whole run or `stage` where neither `time` nor `peak` says when.
     pub at_least: Maybe<f64>,
-    /// Upper bound, instead of `value` and its tolerance; over the whole run where neither `time` nor `peak` says when.
+    /// Upper bound, instead of `value` and its tolerance; over the whole run or `stage` where neither `time` nor `peak` says when.
     pub at_most: Maybe<f64>,
     /// Tolerance relative to the value, above 0.
     pub tolerance: Maybe<f64>,

@@ -15,7 +15,7 @@ use base::names::{nearest, short};
 use base::quantities::{self, Column, PLASTIC_STRAIN, QUATERNION, SECTION_STRESSES};
 use deck::expect as words;
 use deck::parts::PartIndex;
-use deck::words::Table;
+use deck::words::{NumberOr, Table};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
@@ -146,7 +146,10 @@ impl<'d> Expects<'_, 'd> {
                 let pass = if at.pass == 1 { String::new() } else { format!(", pass {}", at.pass) };
                 format!("where {direction} of {node} is {}{pass}", at.value)
             }
-            When::End => format!("at the end of stage `{}`", expect.stage.as_ref().map_or("", |stage| stage.as_str())),
+            When::End => expect
+                .stage
+                .as_ref()
+                .map_or("at the end".to_owned(), |at| format!("at the end of stage `{}`", at.value)),
             When::Max => "at its maximum".to_owned(),
             When::Min => "at its minimum".to_owned(),
             When::Abs => "at its greatest absolute value".to_owned(),
@@ -495,9 +498,10 @@ impl<'d> Expects<'_, 'd> {
             self.report.reject_unused("`when`", &keys!(when; required));
             return displacement_target("`when`", when, self.scene, self.topology, self.report).map(When::Target);
         }
-        if let (Some(stage), Some(time)) = (&expect.stage, &expect.time) {
-            let hint = "without `time` and `peak` the value is that at the end of the stage";
-            let message = format!("an expected value has `time` or `stage`, and this one is at t = {}", time.value);
+        let given = expect.time.as_ref().map(|at| (at.value, &at.span));
+        if let (Some(stage), Some((NumberOr::Number(time), _))) = (&expect.stage, given) {
+            let hint = "`time = \"end\"` is the end of the stage, without `peak` that of a `value` too";
+            let message = format!("an expected value has `time` or `stage`, and this one is at t = {time}");
             return self.report.error_with(&stage.span, message, hint);
         }
         let end = match self.scene.stage {
@@ -505,16 +509,17 @@ impl<'d> Expects<'_, 'd> {
             Some(stage) => stage.sequence.end(),
             None => self.scene.analysis.end_time,
         };
-        match (&expect.time, &expect.peak) {
+        match (given, &expect.peak) {
             (None, None) if expect.stage.is_some() && expect.at_least.is_none() && expect.at_most.is_none() => {
                 Some(When::End)
             }
             (Some(_), Some(peak)) => self.report.error(&peak.span, "an expected value has `time` or `peak`, not both"),
-            (Some(time), None) if !(time.value >= 0.0 && time.value <= end) => {
+            (Some((NumberOr::Number(time), span)), None) if !(time >= 0.0 && time <= end) => {
                 let message = format!("the run goes from 0 to {end}");
-                self.report.error_with(&time.span, "`time` lies outside the run", message)
+                self.report.error_with(span, "`time` lies outside the run", message)
             }
-            (Some(time), None) => Some(When::Time(time.value)),
+            (Some((NumberOr::Number(time), _)), None) => Some(When::Time(time)),
+            (Some((NumberOr::Word(_), _)), None) => Some(When::End),
             (None, Some(peak)) => Some(match peak.value {
                 words::Peak::Max => When::Max,
                 words::Peak::Min => When::Min,

@@ -398,7 +398,7 @@ impl Watch {
             }
             (_, None, When::Time(t)) => Some(format!("the run has no step at time {t}")),
             (_, None, When::Case(_)) => Some("the run never came to the case".to_string()),
-            (_, None, When::End) => Some("the run never came to the end of the stage".to_string()),
+            (_, None, When::End) => Some("the run never came to the end".to_string()),
             (_, None, When::Target(_)) => Some("the path never came there".to_string()),
             (_, None, _) => Some(format!("the run never formed `{quantity}`")),
             (_, Some(sample), _) if bound.is_some() => {

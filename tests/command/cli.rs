@@ -410,6 +410,41 @@ fn numbers_beyond_the_range_are_said_to_be_missing() {
     assert!(!said(&done).contains("empty"), "{}", said(&done));
 }
 
+/// A bound in a stage is one of its extreme, which the inherited state may be; with `time = "end"` it is one of the value at the end, as after unloading.
+#[test]
+fn bounds_at_the_end() {
+    let deck = |stages: bool, bound: &str| {
+        let times = match stages {
+            true => {
+                "[[stages]]\nname = \"push\"\nkind = \"static\"\nduration = 1.0\ntime_step = 0.5\n[[stages]]\nname = \"off\"\nkind = \"static\"\nduration = 1.0\n\
+                 time_step = 0.5\n"
+            }
+            false => "[analysis]\nkind = \"static\"\nend_time = 2.0\ntime_step = 0.5\n",
+        };
+        format!(
+            "{times}[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n[[links]]\nname = \"k\"\nfrom = {{ node = \"a\" }}\nto = {{ node = \"b\" }}\n\
+             law = \"linear\"\nstiffness = 100.0\n[[supports]]\nat = \"a\"\nfix = \"all\"\n[[supports]]\nat = \"b\"\nfix = [\"uy\", \"uz\"]\n\
+             [[loads]]\nat = \"b\"\nforce = [2.0, 0.0, 0.0]\namplitude = \"up_down\"\n[amplitudes.up_down]\nkind = \"table\"\n\
+             points = [[0.0, 0.0], [1.0, 1.0], [2.0, 0.25]]\n[[expect]]\nat = \"b\"\nquantity = \"ux\"\n{bound}\n"
+        )
+    };
+    for (stages, bound, code) in [
+        (false, "at_most = 0.01", 5),
+        (false, "at_most = 0.01\ntime = \"end\"", 0),
+        (false, "at_least = 0.01\ntime = \"end\"", 5),
+        (true, "at_most = 0.01\nstage = \"off\"", 5),
+        (true, "at_most = 0.01\nstage = \"off\"\ntime = \"end\"", 0),
+        (true, "value = 0.005\ntolerance = 1e-6\nstage = \"off\"\ntime = \"end\"", 0),
+        (true, "at_least = 0.01\nstage = \"push\"\ntime = \"end\"", 0),
+    ] {
+        let folder = folder(&deck(stages, bound));
+        let code_found = rdsolve(folder.path(), &["ball.toml"]).get_output().status.code();
+        assert_eq!(code_found, Some(code), "{stages} {bound}");
+    }
+    let folder = folder(&deck(false, "at_most = 0.01\ntime = \"last\""));
+    assert!(said(&rdsolve(folder.path(), &["ball.toml"]).code(3)).contains("`time` cannot be `last`"));
+}
+
 /// A bound of the greatest absolute value is one of its size, whichever way the motion goes.
 #[test]
 fn bounds_of_the_greatest_absolute_value_are_of_its_size() {

@@ -80,7 +80,7 @@ pub enum When {
     Case(usize),
     /// When a displacement passes its target, along a path.
     Target(DisplacementTarget),
-    /// At the end of the stage that the deck names.
+    /// At the end of the run, or of the stage that the deck names.
     End,
     /// The greatest value of the run, with its sign.
     Max,

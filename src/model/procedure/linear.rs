@@ -33,7 +33,7 @@ pub fn linear<'d>(
     let mut step = end_time;
     match analysis.time_step.as_ref().map(|at| (&at.value, &at.span)) {
         None => {}
-        Some((NumberOrAuto::Auto, place)) => {
+        Some((NumberOrAuto::Word(_), place)) => {
             report.error_with::<()>(
                 place,
                 "`time_step` is \"auto\" in a linear analysis",

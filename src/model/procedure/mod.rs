@@ -171,12 +171,12 @@ fn time_step<'d>(
             }
             (report.positive("time_step", &Some(At { value: step, span: at.span.clone() })), None)
         }
-        NumberOrAuto::Auto if is_static => {
+        NumberOrAuto::Word(_) if is_static => {
             let hint = "load steps have no error in time: give a number";
             report.error_with::<()>(&at.span, "`time_step` is \"auto\" in a static analysis", hint);
             (None, None)
         }
-        NumberOrAuto::Auto => (None, Some(tolerance(analysis, accuracy, report))),
+        NumberOrAuto::Word(_) => (None, Some(tolerance(analysis, accuracy, report))),
     }
 }
 

@@ -290,7 +290,8 @@ impl<'d> CurrentStage<'d> {
         let has_modes = self.has_modes();
         let all = self.sequence.whole.analysis.as_ref();
         let place = |own: Option<&Span>| own.unwrap_or(&table.span).clone();
-        let automatic = table.time_step.as_ref().is_some_and(|at| at.value == deck::words::NumberOrAuto::Auto);
+        let automatic =
+            table.time_step.as_ref().is_some_and(|at| matches!(at.value, deck::words::NumberOrAuto::Word(_)));
         let general = all.and_then(|all| all.error_tolerance.clone()).filter(|_| automatic);
         let word = match kind {
             StageKind::Static => words::AnalysisKind::Static,
