@@ -394,7 +394,7 @@ impl Job<'_> {
         told.energy.iter().chain(&bars).try_for_each(|line| watchers.log.say(line))?;
         let bars = if errors.mesh.is_some() && expectations.is_empty() { bars } else { Vec::new() };
         let lines = [std::mem::take(&mut watchers.modes), std::mem::take(&mut told.energy), bars].concat();
-        let end = end(outcome, (&told.missed, told.unstable_from), &expectations)?;
+        let end = end(outcome, (&told.missed, told.unstable_from, told.has_blown_up), &expectations)?;
         watchers.log.say(&last_line(&end))?;
         let result = RunResult {
             status: end.status,

@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use super::load::{Loaded, model_stage};
 use super::verdict::{
-    MissedStop, energy_line, energy_warning, missed_stop, overshoot_warning, rest_warning, ringing_warning,
-    rows_warning, work_warning,
+    MissedStop, energy_line, energy_warning, has_blown_up, missed_stop, overshoot_warning, rest_warning,
+    ringing_warning, rows_warning, work_warning,
 };
 use super::watchers::{Watchers, stage_begins};
 use base::names::{instant, to_digits};
@@ -32,6 +32,8 @@ pub struct StagesTold {
     pub remarks: Vec<String>,
     /// The change of energy by time integration, in a line for each stage.
     pub energy: Vec<String>,
+    /// True where time integration has made most of the energy of a stage.
+    pub has_blown_up: bool,
     /// The effort of all.
     pub counts: Counts,
     /// Time spent on output.
@@ -57,7 +59,7 @@ pub struct StagesTold {
 }
 
 keep!(StagesTold {
-    warnings, remarks, energy, counts, rotation_drift, joint_violation, failed, step_error, missed, unstable_from, contacts,
+    warnings, remarks, energy, has_blown_up, counts, rotation_drift, joint_violation, failed, step_error, missed, unstable_from, contacts,
 } without { observing, plan, plans });
 
 impl StagesTold {
@@ -162,6 +164,7 @@ impl StagesTold {
         let of_run =
             of_run.chain(ringing_warning(effort, model)).chain(overshoot_warning(run)).chain(rows_warning(run, model));
         self.warnings.extend(of_run.chain(of_stage).map(|text| format!("{stage}{text}")));
+        self.has_blown_up |= has_blown_up(run.balance());
         self.energy
             .extend(balance.and_then(|balance| energy_line(balance, model)).map(|line| format!("{stage}{line}")));
         if !model.analysis.has_modes() {

@@ -12,6 +12,8 @@ use std::io;
 
 /// A larger part of the energy is seen in the results.
 const SEEN: f64 = 0.02;
+/// Time integration that has made a larger part of the energy has made the motion too.
+const BLOWN_UP: f64 = 0.5;
 
 /// Dampers may dissipate too much by this part of the energy of the motion without a line.
 const UNTOLD: f64 = 1e-3;
@@ -44,11 +46,16 @@ impl End {
     }
 }
 
-/// Judges the end of a run by its expectations, the `stop` of stages that it has missed, and the time at which an equilibrium turned unstable. An
-/// error is one of input/output.
+/// True where time integration has made most of the energy.
+pub fn has_blown_up(balance: &Balance) -> bool {
+    balance.generated > BLOWN_UP * balance.peak.max(balance.rounding)
+}
+
+/// Judges the end of a run by its expectations, the `stop` of stages that it has missed, the time at which an equilibrium turned unstable, and
+/// whether it has blown up. An error is one of input/output.
 pub fn end(
     outcome: Outcome,
-    (short, unstable_from): (&[String], Option<f64>),
+    (short, unstable_from, has_blown_up): (&[String], Option<f64>, bool),
     expectations: &[Verdict],
 ) -> io::Result<End> {
     let mut is_valid_before = false;
@@ -56,9 +63,14 @@ pub fn end(
         Outcome::Io(error) => return Err(error),
         Outcome::Failed { time, failure } => {
             let status = if failure.is_of_memory() { Status::TooLittleMemory } else { Status::NotConverged };
-            let valid_until = failure.valid_until().unwrap_or(time);
-            is_valid_before = valid_until < time;
-            (status, vec![format!("at t = {}: {failure}", instant(time))], Some(valid_until))
+            let valid_until = Some(failure.valid_until().unwrap_or(time)).filter(|_| !has_blown_up);
+            is_valid_before = valid_until.is_some_and(|until| until < time);
+            let invalid = match (has_blown_up, failure.to_string().contains('\n')) {
+                (false, _) => "",
+                (true, true) => "\n  results before this time are not valid: see the growth of energy",
+                (true, false) => "; results before this time are not valid: see the growth of energy",
+            };
+            (status, vec![format!("at t = {}: {failure}{invalid}", instant(time))], valid_until)
         }
         Outcome::Stopped { time, cut } => {
             let why = cut.as_ref().map_or_else(String::new, |cut| format!(" in a step that was cut back: {cut}"));

@@ -12,9 +12,11 @@ pub struct NoConvergence {
     pub least_step: Option<f64>,
     /// The number of iterations that would suffice at the last contraction, unless it is far away.
     pub enough: Option<usize>,
+    /// True in dynamics.
+    pub moves: bool,
 }
 
-keep!(NoConvergence: Default { at_limit, least_step, enough });
+keep!(NoConvergence: Default { at_limit, least_step, enough, moves });
 
 impl NoConvergence {
     /// The message up to the list of forces. `open` is the part that has opened last, in quotes. With `lacks_slip` the matrix omits a part
@@ -64,7 +66,8 @@ impl NoConvergence {
             ),
             None => format!(
                 "{place}, however short the step. Look there for a jump of a load or motion, or for a part that opens, slips or yields suddenly. \
-                 Add a soft spring there, or give `kind = \"dynamic\"`"
+                 Add a soft spring there{}",
+                if self.moves { "" } else { ", or give `kind = \"dynamic\"`" }
             ),
         }
     }

@@ -50,6 +50,7 @@ fn failures() -> Vec<Failure> {
         stuck(none, open(), false),
         stuck(NoConvergence { at_limit: true, ..none }, None, false),
         stuck(NoConvergence { least_step: Some(1e-3), ..none }, None, false),
+        stuck(NoConvergence { moves: true, ..none }, None, false),
         stuck(NoConvergence { enough: Some(37), ..none }, None, true),
         Failure::ConstraintsViolated { largest: largest(), inertias: Vec::new() },
         Failure::ConstraintsViolated {

@@ -381,6 +381,7 @@ impl Newton {
             at_limit: (progress.passes_unstable || yields) && report.residual < NEAR_LIMIT,
             least_step: (0.5 * (report.to - step.state.time) < least).then_some(least),
             enough: progress.enough(),
+            moves: cx.is_dynamic(),
         };
         let never_closed = || contact_never_closed(cx, step).filter(|_| !cause.at_limit);
         let open = self.matrix.opened_part().or_else(never_closed);
