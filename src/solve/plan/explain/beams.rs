@@ -60,7 +60,11 @@ fn inside(beam: &Beam, model: &Model) -> Option<String> {
     let places = model.output.sections?;
     let (rule, points, remedy) = match &beam.yielding {
         Some(yielding) if places != SectionPlaces::Ends => {
-            (yielding.rule, yielding.points, "`integration = \"lobatto\"` has points at the ends")
+            let remedy = match yielding.points {
+                ..3 => "`integration = \"lobatto\"` with `order = 3` has points at the ends",
+                _ => "`integration = \"lobatto\"` has points at the ends",
+            };
+            (yielding.rule, yielding.points, remedy)
         }
         None if places == SectionPlaces::Points => {
             (IntegrationRule::Gauss, beam.order, "`sections = { at = \"ends\" }` has those at the ends")
