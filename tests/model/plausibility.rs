@@ -711,6 +711,14 @@ fn parts_that_nothing_holds_are_said() {
         &["everything lies behind the plane", "up to 4.025 deep"],
     );
     is_silent_about("behind the plane", &format!("{two}{gravity}{both}"));
+    // A mass at a point of its own is a part too.
+    let payload = "[[masses]]\nat = \"c\"\nmass = 800.0\n";
+    let mast = format!(
+        "{points}{}[[supports]]\nat = \"a\"\nfix = \"all\"\n{gravity}{payload}",
+        beam("mast", "\"a\", \"b\"", 2)
+    );
+    says(&mast, Severity::Warning, &["nothing joins `c` to the parts that supports hold", "falls freely"]);
+    is_silent_about("nothing joins", &mast.replace("at = \"c\"\nmass", "at = \"b\"\nmass"));
     // What flies is meant to, perhaps.
     says(&format!("{two}{gravity}{flies}"), Severity::Note, &["holds `mast` or any other part", "fall freely"]);
 }

@@ -31,7 +31,8 @@ pub fn check_loose(model: &Model, report: &mut Report) {
     let deformable = model.parts.iter().filter(|part| part.kind().is_deformable() && part.elements() > 0);
     let parts = deformable.filter_map(|part| Some((part.name(), *part.nodes(0).first()?)));
     let bodies = model.bodies.iter().map(|body| (body.name.as_str(), body.node));
-    let all: Vec<(&str, usize)> = parts.chain(bodies.filter(|_| !is_static)).collect();
+    let masses = model.masses.iter().map(|mass| (model.nodes[mass.node].label.as_str(), mass.node));
+    let all: Vec<(&str, usize)> = parts.chain(bodies.chain(masses).filter(|_| !is_static)).collect();
     if !all.iter().any(|(_, node)| groups.of(*node) == ground) {
         let is_still = model.nodes.iter().all(|node| node.v.norm() + node.omega.norm() == 0.0);
         let lands = model.parts.iter().any(|part| !part.touched_nodes().is_empty());
