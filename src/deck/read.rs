@@ -42,6 +42,11 @@ impl<'t> ParsedText<'t> {
         reader.problems.extend(slip.clone());
         let (root, syntax) = DeTable::parse_recoverable(plain);
         let mut root = root.into_inner();
+        if text.trim_start().starts_with("$MeshFormat") {
+            reader.broken.push(0..text.len());
+            let hint = "a deck names it: `[mesh]` with `file = \"NAME.msh\"`; its physical groups are sets there";
+            reader.problems.push(Diagnostic::error("this is a mesh of Gmsh, and no deck").at(&(0..11)).hint(hint));
+        }
         for error in &syntax {
             reader.syntax(text, error);
         }
@@ -68,7 +73,8 @@ impl<'t> ParsedText<'t> {
         reader.texts(&mut root);
         reader.numbers(&mut root);
         reader.lengths(&mut root);
-        let deck = reader.tables(root);
+        let is_deck = reader.broken.first().is_none_or(|broken| broken.len() < source.text.len());
+        let deck = if is_deck { reader.tables(root) } else { None };
         let spoiled = reader.spoiled;
         (deck.map(|deck| Deck { spoiled, ..deck }), reader.problems)
     }

@@ -125,10 +125,12 @@ pub fn import(text: &mut Text, options: &ImportOptions) -> Imported {
     }
     let built = assemble::build(&mut im, &options.mesh_file);
     let has = |words: &[&str], block: &KeywordBlock| words.contains(&block.keyword.key().as_str());
-    if blocks.iter().any(|block| has(&["NODE"], block)) && blocks.iter().all(|block| has(IN_MESHES, block)) {
+    let is_of_gmsh = text.bytes.trim_ascii_start().starts_with(b"$MeshFormat");
+    let is_mesh = blocks.iter().any(|block| has(&["NODE"], block)) && blocks.iter().all(|block| has(IN_MESHES, block));
+    if is_of_gmsh || is_mesh {
         // Other verdicts would ask for changes, and `[mesh]` reads this mesh without them.
         im.verdicts = Verdicts::new(std::mem::take(&mut im.verdicts.keywords));
-        let about = "this file is a mesh alone, without *STEP";
+        let about = if is_of_gmsh { "this file is a mesh of Gmsh" } else { "this file is a mesh alone, without *STEP" };
         let hint = format!("name it in a deck: `[mesh] file = \"{}\"`; its sets are groups there", text.path);
         let said = Box::new(Diagnostic { hints: vec![hint], ..*text.fault(about, 1) });
         im.verdicts.add(text, KeywordVerdict::Refused, 1, Some(said), about.to_owned());

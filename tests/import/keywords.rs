@@ -24,6 +24,9 @@ fn meshes_alone() {
         ["this file is a mesh alone, without *STEP"]
     );
     assert!(said[0].hints[0].starts_with("name it in a deck: `[mesh] file = "), "{:?}", said[0].hints);
+    let gmsh = imported("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n").verdicts.said();
+    assert_eq!(gmsh.len(), 1);
+    assert_eq!((&*gmsh[0].message, gmsh[0].hints.len()), ("this file is a mesh of Gmsh", 1));
     let more = refusals(&imported(&format!("{mesh}*MATERIAL, NAME=m\n")));
     assert!(more.iter().any(|said| said.contains("the file has no *STEP")), "{more:?}");
     assert!(more.iter().any(|said| said.contains("no plane elements")), "{more:?}");
