@@ -777,6 +777,9 @@ pub mod speeds {
     pub const PLANAR: f64 = 0.01;
     /// Most steps of a search; halving alone reaches the tolerance in 34.
     pub const MOST_STEPS: usize = 60;
+    /// Number of speeds in a search for critical speeds. Between two of them a frequency meets the speed once: it grows slower than the speed, and forward
+    /// whirl of flat discs meets it nowhere.
+    pub const IN_RANGE: usize = 9;
 }
 
 pub mod shape {
@@ -834,6 +837,15 @@ pub mod modal_response {
     pub const NOTHING_LEFT: f64 = 1e-8;
     /// Part of all forces below which rounding alone drives a mode.
     pub const UNDRIVEN: f64 = 1e-9;
+}
+
+pub mod response_between {
+    /// Part of the largest motion below which a component is rounding.
+    pub const ROUNDING: f64 = 1e-6;
+    /// Ratio of a peak to the motions beside it above which it counts as missed: rows as far apart as the peak is wide show 0.9 of it.
+    pub const HIGHER: f64 = 2.0;
+    /// Ratio above which nothing limits the peak: a damping of 1e-8 with frequencies a hundredth apart.
+    pub const UNLIMITED: f64 = 1e6;
 }
 
 pub mod direct_response {

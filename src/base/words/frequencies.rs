@@ -29,7 +29,8 @@ pub struct FrequencyRange {
     pub steps: At<u64>,
     /// How they are spaced. Default: "linear".
     pub spacing: Option<At<Spacing>>,
-    /// So many more frequencies on each side of every natural frequency in the range, and one at it. Default: 0, none.
+    /// So many more frequencies on each side of every natural frequency in the range, and one at it. With an `unbalance`, those of critical speeds.
+    /// Default: 0, none.
     pub around_resonances: Option<At<u64>>,
 }
 

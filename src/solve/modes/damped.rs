@@ -18,7 +18,7 @@ use crate::tolerances::damped::{DOUBTFUL, GROWS, INFINITE, SPLIT, TOLERANCE, UP_
 use crate::tolerances::modal::LOW;
 use base::math::Vec6;
 use linear::eigen::{Arnoldi, Complex, ComplexPair, Operator};
-use linear::{Factorization, Solver, Sparse};
+use linear::{Solver, Sparse};
 use model::ModeExtent;
 use std::f64::consts::TAU;
 
@@ -71,11 +71,15 @@ impl Operator for Quadratic<'_, '_> {
     }
 }
 
-/// Finds the complex modes of the model.
+/// Finds the complex modes of the model up to an extent.
 ///
 /// # Errors
 /// The reason why there are none.
-pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Result<Modes, ModesFault> {
+pub fn damped_modes(
+    at: &Linearized,
+    extent: ModeExtent,
+    linear: (&mut Solver, &mut Assembly),
+) -> Result<Modes, ModesFault> {
     let gyroscopic = Gyroscopic::of(at);
     let (near, free, natural) = {
         let mut pencil = Pencil::new(*at, (&mut *linear.0, &mut *linear.1));
@@ -90,17 +94,12 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
         let free = if free && has_potential { Some(free_modes(&mut pencil, near)?) } else { None };
         (near, free, pencil.factorizations)
     };
-    let mut own = None;
-    if gyroscopic.acts() || !at.has_potential() {
-        let solver = Solver::new(&at.plan.structure, Factorization::BlockLu, at.plan.threads)?;
-        let assembly = Assembly::new(at.system, &at.plan.dofs, &solver, at.plan.threads);
-        own = Some((solver, assembly));
-    }
+    let unsymmetric = gyroscopic.acts() || !at.has_potential();
+    let mut own = unsymmetric.then(|| at.unsymmetric_solver()).transpose()?;
     let mut pencil = match &mut own {
         Some((solver, assembly)) => Pencil::new(*at, (solver, assembly)),
         None => Pencil::new(*at, linear),
     };
-    let extent = at.model.analysis.extent();
     let shapes = Shapes::new(&pencil);
     let pairs = allowed(&mut pencil, &gyroscopic, near, extent)?;
     let mut list =

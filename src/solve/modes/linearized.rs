@@ -6,7 +6,7 @@ use crate::system::assembly::Assembly;
 use crate::system::{Loading, System};
 use crate::tolerances::linearized::ROUNDING;
 use base::math::{Vec3, Vec6};
-use linear::{Solver, TooLarge};
+use linear::{Factorization, Solver, TooLarge};
 use mechanics::state::{Node, State};
 use model::{DIRECTIONS, Model};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -37,6 +37,16 @@ impl Linearized<'_> {
     /// There is no memory for it.
     pub fn symmetric_solver(&self) -> Result<(Solver, Assembly), TooLarge> {
         self.plan.build_symmetric(self.system)
+    }
+
+    /// A separate solver with whole matrices.
+    ///
+    /// # Errors
+    /// There is no memory for it.
+    pub fn unsymmetric_solver(&self) -> Result<(Solver, Assembly), TooLarge> {
+        let solver = Solver::new(&self.plan.structure, Factorization::BlockLu, self.plan.threads)?;
+        let assembly = Assembly::new(self.system, &self.plan.dofs, &solver, self.plan.threads);
+        Ok((solver, assembly))
     }
 
     /// Ends a search where the stop flag is raised.

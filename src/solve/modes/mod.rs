@@ -77,7 +77,7 @@ fn find_with(
     match &at.model.analysis.kind {
         AnalysisKind::Dynamic | AnalysisKind::Static => Ok(Modes::default()),
         AnalysisKind::Modal(asked) if asked.damped => {
-            let modes = damped::damped_modes(at, (&mut *linear.0, &mut *linear.1))?;
+            let modes = damped::damped_modes(at, asked.extent, (&mut *linear.0, &mut *linear.1))?;
             if asked.speeds.is_empty() { Ok(modes) } else { speeds::over_speeds(at, &asked.speeds, modes, linear) }
         }
         AnalysisKind::Modal(_) => modal::natural_modes(at, linear),

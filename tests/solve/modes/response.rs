@@ -467,3 +467,44 @@ fn slender_structures_are_not_next_to_singular() {
     // Shear adds 8e-5, inertia at a hundredth of a Hertz 5e-5.
     assert!((motion(&found, node(&model, "b"), 2)[0].1.re / wanted - 1.0).abs() < 2e-4, "{wanted}");
 }
+
+/// Two equal masses on two equal springs resonate at 0.618 and 1.618 times the frequency of one, where the driven mass stands still. A resonance between two
+/// frequencies has a warning with its place and the height of its peak, by both methods; an antiresonance and a peak with rows on it have none.
+#[test]
+fn a_resonance_between_frequencies() {
+    let k = TAU * TAU;
+    let scene = |keys: &str, damping: f64| {
+        shaken(format!(
+            "[analysis]\nkind = \"frequency-response\"\n{keys}\n[points]\na = [1.0, 0.0, 0.0]\nb = [2.0, 0.0, 0.0]\n[[masses]]\nat = \"a\"\nmass = 1.0\n\
+             [[masses]]\nat = \"b\"\nmass = 1.0\n[[supports]]\nat = [\"a\", \"b\"]\nfix = [\"uy\", \"uz\"]\n\
+             [[links]]\nname = \"first\"\nfrom = {{ ground = [0.0, 0.0, 0.0] }}\nto = {{ node = \"a\" }}\nstiffness = {k:?}\ndamping = {damping:?}\n\
+             [[links]]\nname = \"second\"\nfrom = {{ node = \"a\" }}\nto = {{ node = \"b\" }}\nstiffness = {k:?}\ndamping = {damping:?}\n\
+             [[loads]]\nat = \"a\"\nforce = [1.0, 0.0, 0.0]\namplitude = \"shake\"\n[output]\nnodes = [\"a\"]\n"
+        ))
+    };
+    let said = |keys: &str, damping: f64| {
+        let found = modes(&scene(keys, damping));
+        found.warnings.into_iter().filter(|said| said.contains("a resonance lies between")).collect::<Vec<_>>()
+    };
+    let coarse = "frequencies = [0.5, 0.55, 0.6, 0.65, 0.7]\n";
+    for method in ["", "method = \"modal\"\nmodes = 2\n"] {
+        let said = said(&format!("{coarse}{method}"), 1e-3);
+        assert_eq!(said.len(), 1, "{method}");
+        let number = |after: &str| {
+            let rest = said[0].split(after).nth(1).unwrap();
+            rest.split([' ', ':', ';']).next().unwrap().parse::<f64>().unwrap()
+        };
+        let at = |f: f64| modes(&scene(&format!("frequencies = [{f:?}]"), 1e-3));
+        let a = node(&read_deck(&scene(coarse, 1e-3)), "a");
+        let size = |f: f64| motion(&at(f), a, 0)[0].1.norm();
+        let [exact, frequency] = [(5.0f64.sqrt() - 1.0) / 2.0, number("near ")];
+        let higher = size(exact) / size(0.6).max(size(0.65));
+        println!("{}: {frequency} {exact}, {higher}", said[0]);
+        // The other mode moves the driven mass by a tenth there.
+        assert!((frequency - exact).abs() < 0.1 * 0.05, "{}", said[0]);
+        assert!((number("about ") / higher - 1.0).abs() < 0.2, "{} {higher}", said[0]);
+    }
+    assert!(said("frequencies = [0.8, 0.9, 0.95, 1.05, 1.1, 1.2]", 1e-3).is_empty());
+    assert!(said(coarse, 5.0).is_empty());
+    assert!(said("frequencies = { from = 0.5, to = 0.7, steps = 5, around_resonances = 10 }", 1e-2).is_empty());
+}

@@ -157,3 +157,29 @@ fn in_a_stage() {
     let [a, b] = [&alone, &staged.unwrap()].map(|found| motion(found, second, 1)[0].1);
     assert!((a - b).norm() < 1e-9 * a.norm(), "{a} {b}");
 }
+
+/// `around_resonances` resolves the critical speeds of bending that a modal analysis finds; a grid across them has a warning that names one of them.
+#[test]
+fn critical_speeds_are_resolved() {
+    let load = "[[loads]]\nat = \"second\"\nunbalance = [0.0, 1e-4, 0.0]\n";
+    let deck = |more: &str| two_discs(100.0, &format!("{{ from = 5.0, to = 105.0, steps = 21{more} }}"), load);
+    let grid = modes(&deck(""));
+    let said: Vec<&String> = grid.warnings.iter().filter(|said| said.contains("a resonance lies between")).collect();
+    let found = modes(&deck(", around_resonances = 3"));
+    let modal = deck("").replace(
+        "kind = \"frequency-response\"\nfrequencies = { from = 5.0, to = 105.0, steps = 21 }",
+        "kind = \"modal\"\ndamped = true\nmodes = 6\nspeeds = { to = 700.0, steps = 8 }",
+    );
+    let modal = modes(modal.strip_suffix(load).unwrap());
+    let bends = modal.critical_speeds.iter().filter(|of| of.mode.whirl.is_none_or(|whirl| !whirl.is_along));
+    let critical: Vec<f64> = bends.map(|of| of.speed / TAU).collect();
+    let critical: Vec<f64> = critical.into_iter().filter(|f| (5.0..105.0).contains(f)).collect();
+    println!("{critical:?} {said:?}");
+    assert!(critical.len() >= 2 && said.len() == 1, "{critical:?} {said:?}");
+    let rows = &found.response.as_ref().unwrap().rows;
+    for f in &critical {
+        // Both searches end within 1e-10 of the speed.
+        assert!(rows.iter().any(|row| (row.frequency / f - 1.0).abs() < 1e-9), "{f}");
+    }
+    assert!(!found.warnings.iter().any(|said| said.contains("lies between")), "{:?}", found.warnings);
+}

@@ -7,6 +7,7 @@ use super::super::modal::{natural_frequencies, natural_pairs};
 use super::super::mode::Modes;
 use super::super::pencil::Pencil;
 use super::super::shape::Shapes;
+use super::super::speeds::critical_frequencies;
 use super::super::steady::{Response, ResponseProgress, ResponseRow, ResponseSoFar};
 use super::dynamic_stiffness::DynamicStiffness;
 use super::excitation::{C64, HarmonicExcitation};
@@ -21,7 +22,7 @@ use crate::tolerances::direct_response::{
 };
 use base::math::Vec6;
 use base::names::short;
-use linear::{Factorization, Solver, Sparse};
+use linear::{Solver, Sparse};
 use model::{ModeExtent, ResponseAsked};
 use std::f64::consts::TAU;
 
@@ -36,19 +37,18 @@ pub fn response(
     progress: &mut ResponseProgress,
 ) -> Result<Modes, ModesFault> {
     let mut found = Modes { kind: ModeKind::Natural, ..Modes::default() };
-    let natural = match asked.resonances {
-        Some(around) => natural_frequencies(at, around.range[1], (&mut *linear.0, &mut *linear.1), &mut found)?,
-        None => Vec::new(),
+    let speed = at.model.loading.unbalanced_node().map(|node| at.state.nodes[node].omega.norm());
+    let natural = match (asked.resonances, speed) {
+        (Some(around), Some(spin)) => {
+            critical_frequencies(at, (around.range, spin), (&mut *linear.0, &mut *linear.1), &mut found)?
+        }
+        (Some(around), None) => natural_frequencies(at, around.range[1], (&mut *linear.0, &mut *linear.1), &mut found)?,
+        (None, _) => Vec::new(),
     };
     let all = frequencies(asked, &natural);
     let gyroscopic = Gyroscopic::of(at);
     let unsymmetric = gyroscopic.acts() || !at.has_potential();
-    let mut own = None;
-    if unsymmetric {
-        let solver = Solver::new(&at.plan.structure, Factorization::BlockLu, at.plan.threads)?;
-        let assembly = Assembly::new(at.system, &at.plan.dofs, &solver, at.plan.threads);
-        own = Some((solver, assembly));
-    }
+    let mut own = unsymmetric.then(|| at.unsymmetric_solver()).transpose()?;
     let mut pencil = match &mut own {
         Some((solver, assembly)) => Pencil::new(*at, (solver, assembly)),
         None => Pencil::new(*at, linear),
@@ -65,7 +65,6 @@ pub fn response(
     let joints = pencil.joints_at((BEYOND * highest).powi(2));
     let mut stiffness = DynamicStiffness::new(&at.plan.structure)?;
     stiffness.set(&matrices, &joints);
-    let speed = at.model.loading.unbalanced_node().map(|node| at.state.nodes[node].omega.norm());
     let mut direct = Direct { pencil, excitation, stiffness, joints, speed, so_far: &mut *progress.so_far, natural };
     let mut response = Response::of(at.model, std::mem::take(&mut direct.so_far.rows));
     if let Err(stopped) = direct.find(at, &all, &mut *progress.pauses, &mut response) {
@@ -121,7 +120,7 @@ struct Direct<'a> {
     /// The spin of the state that is the angular frequency; `None` if spins do not follow it.
     speed: Option<f64>,
     so_far: &'a mut ResponseSoFar,
-    /// Natural frequencies, where they are known.
+    /// Natural frequencies, or those of critical speeds, where they are known.
     natural: Vec<f64>,
 }
 

@@ -3,6 +3,7 @@
 //! Every motion is the real part of a complex one times exp(iωt). [`direct`] solves (K + iωC − ω²M) x = f at each frequency; [`modal`] uses
 //! natural modes.
 
+mod between;
 mod damped_rest;
 mod direct;
 mod dynamic_stiffness;
@@ -33,8 +34,10 @@ pub fn find_response(
     linear: (&mut Solver, &mut Assembly),
     mut progress: ResponseProgress,
 ) -> Result<Modes, ModesFault> {
-    match asked.method {
+    let mut found = match asked.method {
         ResponseMethod::Direct => direct::response(at, asked, linear, &mut progress),
         ResponseMethod::Modal => modal::response(at, asked, linear, &mut progress),
-    }
+    }?;
+    found.warnings.extend(found.response.as_ref().and_then(|response| between::missed_in_words(&response.rows)));
+    Ok(found)
 }

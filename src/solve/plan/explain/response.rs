@@ -12,7 +12,8 @@ pub fn explain(response: &ResponseAsked, model: &Model) -> String {
         _ => String::new(),
     };
     let around = response.resonances.map_or(String::new(), |around| {
-        format!(", {} more on each side of every natural frequency there", around.count)
+        let of = if model.loading.unbalanced_node().is_some() { "critical speed" } else { "natural frequency" };
+        format!(", {} more on each side of every {of} there", around.count)
     });
     let how = match (response.method, response.extent) {
         (ResponseMethod::Direct, _) => "by a factorization at each frequency".to_owned(),
