@@ -4,7 +4,7 @@ use super::source::{CRATES, lines_below};
 
 /// Lines of the sources below src by crate, `program` for what lies beside them.
 const BUDGET: [(&str, usize); 11] = [
-    ("base", 7027),
+    ("base", 7055),
     ("linear", 4270),
     ("mechanics", 36_967),
     ("deck", 5508),
