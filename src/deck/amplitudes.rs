@@ -32,8 +32,8 @@ pub struct Amplitude {
     /// The curve between the points. Default: "linear"; for positions and velocities prescribed by a support or joint in dynamics "cubic"
     /// between the corners of the table. (table)
     pub interpolation: Maybe<Interpolation>,
-    /// Factor on the values, such as 9.81 for a record in g without `units`. Default: 1; with `units` and a header that names a unit, the factor from
-    /// that unit to the deck's. (table)
+    /// Factor on the values, such as 9.81 for a record in g. Default: 1; with `units` and a header that names a unit, the factor from that unit to
+    /// the deck's. (table)
     pub scale: Maybe<f64>,
     /// Unit of the values of a file, such as "g", "m/s2", "cm/s2", "m/s" or "cm". rdsolve converts them to `units`. Every `scale` is then a
     /// factor on the whole record. Default: that of the header. (table)

@@ -31,8 +31,7 @@ pub struct BaseAcceleration {
     /// Name of the amplitude that gives the acceleration over time.
     #[schemars(required)]
     pub amplitude: Maybe<String>,
-    /// Factor on the amplitude. With `units` a header or `unit` converts the record: leave 9.81 out, and give a factor on the whole record, such as 1.5.
-    /// Default: 1.
+    /// Factor on the amplitude, such as 9.81 for a record in g. With `unit` in the amplitude it is a factor on the whole record. Default: 1.
     pub scale: Maybe<f64>,
 }
 

@@ -1,11 +1,12 @@
-//! Records in other units than the deck. Headers of data bases give the unit; values are converted where the deck has `units`.
+//! Records in other units than the deck. Headers of data bases give the unit; values are converted where the deck has `units` and no scale.
 
-use super::shaking::{BareRecords, Use, is_converted_twice, is_too_strong};
+use super::shaking::{BareRecords, Use, is_converted_twice, is_factor, is_too_strong};
 use crate::record::{MotionQuantity, RecordUnit};
 use crate::records::Record;
 use crate::report::Report;
 use base::names::{short, to_digits};
 use deck::Deck;
+use deck::amplitudes::Amplitude;
 use deck::supports::{History, Motion};
 use deck::words::Maybe;
 
@@ -70,6 +71,7 @@ pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut 
         if given == [Some(1.0), None] {
             continue;
         }
+        note_scale(deck, &used, (words, unit), report);
         check_factor(deck, &used, (file, unit), given.iter().any(Option::is_some).then_some(factor), report);
     }
     bare.check(deck, report);
@@ -102,7 +104,7 @@ pub fn shakes_alone(deck: &Deck, index: usize) -> bool {
 }
 
 /// The factor from the unit of a record to the units of the deck. `None` if the deck has no `units`. Without `unit`, a `scale` of the amplitude
-/// replaces it. The scale of a motion multiplies the whole record.
+/// replaces it, and so does a scale of the motion that equals it in three digits. Another scale of the motion multiplies the whole record.
 pub fn conversion(deck: &Deck, index: usize, record: &Record) -> Option<f64> {
     let (name, words) = &deck.amplitudes.0[index];
     let (quantity, si) = record.unit.as_ref()?.known?;
@@ -110,8 +112,10 @@ pub fn conversion(deck: &Deck, index: usize, record: &Record) -> Option<f64> {
     let is_this = |used: &Use| used.amplitude.as_ref().is_some_and(|own| own.value == name.value);
     let used: Vec<Use> = uses(deck).into_iter().filter(is_this).collect();
     let factor = si * time.powi(quantity.power_of_time()) / length;
+    let leaves =
+        words.scale.is_none() && !used.iter().any(|used| used.scale.is_some_and(|scale| is_factor(scale, factor)));
     let is_right = used.iter().all(|used| used.quantity == quantity);
-    ((words.scale.is_none() || words.unit.is_some()) && is_right && !used.is_empty()).then_some(factor)
+    ((leaves || words.unit.is_some()) && is_right && !used.is_empty()).then_some(factor)
 }
 
 /// Notes that a record is converted, unless it is in the units of the deck already.
@@ -126,6 +130,25 @@ fn note_conversion(deck: &Deck, used: &Use, (file, unit): (&str, &RecordUnit), f
     let hint =
         format!("that is `scale = {}`; `scale = 1.0` in the amplitude leaves the numbers unconverted", short(factor));
     report.note(used.place, message, hint);
+}
+
+/// Notes that the scale of a motion takes the place of the conversion that the header asks for.
+fn note_scale(deck: &Deck, used: &Use, (words, unit): (&Amplitude, &RecordUnit), report: &mut Report) {
+    let (Some(units), Some(scale), None, Some((quantity, si))) = (&deck.units, used.scale, &words.scale, unit.known)
+    else {
+        return;
+    };
+    let [length, _, time] = units.value.scales();
+    let right = si * time.powi(quantity.power_of_time()) / length;
+    if right != 1.0 && is_factor(scale, right) {
+        let (scale, label) = (short(scale), units.value.label());
+        let message = format!("the scale {scale} converts the record from {} to the units {label}", unit.name);
+        let hint = format!(
+            "it is no factor on the record then; `unit = \"{}\"` in the amplitude converts the record, and every scale is a factor",
+            unit.name.to_lowercase()
+        );
+        report.note(used.place, message, hint);
+    }
 }
 
 /// Where a record of this quantity belongs.

@@ -17,7 +17,9 @@ const G: f64 = 9.80665;
 /// 100 times.
 const PEAKS: [f64; 3] = [0.02, 0.1, 5.0];
 
-/// A scale is a conversion if it is one up to this part of it: 9.81 for 9.80665.
+/// A scale takes the place of a conversion if it is one up to this part of it, ...
+const WRITTEN: f64 = 1e-3;
+/// ... and seems to convert once more up to this part.
 const ROUNDED: f64 = 0.01;
 
 /// A use of a record as a motion in the deck.
@@ -128,13 +130,12 @@ fn largest(record: &Record) -> f64 {
     record.points.iter().fold(0.0, |largest: f64, [_, value]| largest.max(value.abs()))
 }
 
-/// True for a scale that is this factor between units, rounded.
-fn is_factor(scale: f64, factor: f64) -> bool {
-    (scale.abs() / factor - 1.0).abs() < ROUNDED
+/// True for a scale that is this factor between units in the digits that people write, such as 9.8 or 9.81 for 9.80665.
+pub fn is_factor(scale: f64, factor: f64) -> bool {
+    (scale.abs() / factor - 1.0).abs() < WRITTEN
 }
 
-/// Refuses a record that its header converts, and a scale of its use again: a deck may mean either. Warns where two of `unit`, the scale of the
-/// amplitude and the scale of its use convert. True if it does.
+/// Warns of a record that two of the header or `unit`, the scale of the amplitude and the scale of its use convert. True if it does.
 pub fn is_converted_twice(
     deck: &Deck,
     used: &Use,
@@ -144,7 +145,7 @@ pub fn is_converted_twice(
     let Some((units, (quantity, si))) = deck.units.as_ref().zip(unit.known) else { return false };
     let [length, _, time] = units.value.scales();
     let right = si * time.powi(quantity.power_of_time()) / length;
-    let is_conversion = |scale: &f64| is_factor(*scale, right);
+    let is_conversion = |scale: &f64| (scale.abs() / right - 1.0).abs() < ROUNDED;
     let scales = [words.scale.as_ref().map(|scale| scale.value), used.scale];
     let conversions: Vec<f64> = scales.into_iter().flatten().filter(is_conversion).collect();
     let count = conversions.len() + usize::from(is_converted);
@@ -159,15 +160,6 @@ pub fn is_converted_twice(
         units.value.label(),
         short(conversions[0])
     );
-    if is_converted && words.unit.is_none() {
-        let hint = format!(
-            "leave that scale out; or give `unit = \"{}\"` in the amplitude, if the whole record is to be {} times as strong",
-            unit.name.to_lowercase(),
-            short(conversions[0])
-        );
-        report.error_with::<()>(used.place, message, hint);
-    } else {
-        report.warn(used.place, message, "leave that scale out, or give a factor on the whole record, such as 1.5");
-    }
+    report.warn(used.place, message, "leave that scale out, or give a factor on the whole record, such as 1.5");
     true
 }
