@@ -26,7 +26,7 @@ use std::sync::atomic::AtomicBool;
 /// The deck is invalid or cannot be read, or its matrix does not fit into memory; the reason has been shown.
 pub fn check(args: &CheckArgs) -> Result<(), Exit> {
     let checking = EndAtOnce::on_signals();
-    let mut loaded = load(&args.deck.deck, &args.deck.sets, Vec::new())?;
+    let mut loaded = load(&args.deck.deck, &args.deck.sets, Vec::new())?.with_chosen_scheme();
     show(&loaded.warnings, &loaded.source);
     let (system, plan, warnings) = plan(&mut loaded, 1)?;
     show(&warnings, &loaded.source);

@@ -140,8 +140,8 @@ pub fn effort(model: &Model, system: &System, plan: &Plan) -> Option<String> {
     }
 }
 
-/// Offers central differences to a deck that names no scheme, if deformable parts strike something and the run takes minutes at most: all
-/// schemes resolve a blow by short steps.
+/// Offers central differences if automatic steps by an error have no scheme in the deck, deformable parts strike something and the run takes minutes
+/// at most. All schemes resolve a blow by short steps.
 pub fn alternative(model: &Model, threads: usize) -> Option<String> {
     let has_part = |is: fn(PartKind) -> bool| model.parts.iter().any(|part| is(part.kind()));
     let fits = !has_part(PartKind::is_floating) && model.damping.modal.is_empty();

@@ -13,9 +13,9 @@ pub enum Exit {
     Usage = 2,
     /// The deck has errors, which have been shown.
     DeckInvalid = 3,
-    /// No step could be taken any more; results are valid up to the time named.
+    /// No step could be taken any more, or an equilibrium is unstable; results are valid up to the time named.
     NotConverged = 4,
-    /// A comparison failed, or an expected value was missed.
+    /// A comparison failed, or an expected value or a required `stop` was missed.
     CheckFailed = 5,
     /// A file could not be read or written.
     InputOutput = 6,

@@ -51,6 +51,11 @@ pub fn read_with(source: &Source, sets: &[String]) -> Result<Model, String> {
 }
 
 impl Loaded {
+    /// The same deck with the scheme that rdsolve chooses for automatic steps, if it chooses another than the default.
+    pub fn with_chosen_scheme(self) -> Loaded {
+        by_central_differences(&self).unwrap_or(self)
+    }
+
     /// The models of all stages, or the only one.
     pub fn models(&self) -> Vec<&Model> {
         std::iter::once(&self.model).chain(&self.later).collect()
@@ -90,8 +95,6 @@ pub fn build(source: Source, sets: &[String]) -> Result<Loaded, (Vec<Diagnostic>
 
 /// As [`build`], of the deck that has been read from the source.
 pub fn build_read(deck: DeckRead, source: Source, sets: &[String]) -> Result<Loaded, (Vec<Diagnostic>, Source)> {
-    let analysis = deck.0.as_ref().and_then(|deck| deck.analysis.as_ref());
-    let asks_for_error = analysis.is_some_and(|of| of.error_tolerance.is_some() || of.accuracy.is_some());
     let (mut models, mut said) = model::build_read(deck, &source);
     if let Err(problems) = reduce(&mut models.iter_mut().collect::<Vec<_>>()) {
         said.extend(problems);
@@ -101,7 +104,7 @@ pub fn build_read(deck: DeckRead, source: Source, sets: &[String]) -> Result<Loa
     match models.next() {
         Some(model) => {
             let hash = hash(&source, sets, &model);
-            let loaded = Loaded {
+            Ok(Loaded {
                 model,
                 later: models.collect(),
                 mass_scaling: None,
@@ -109,18 +112,20 @@ pub fn build_read(deck: DeckRead, source: Source, sets: &[String]) -> Result<Loa
                 source,
                 sets: sets.to_vec(),
                 hash,
-            };
-            let central = if asks_for_error { None } else { by_central_differences(&loaded) };
-            Ok(central.unwrap_or(loaded))
+            })
         }
         None => Err((said, source)),
     }
 }
 
-/// The deck with central differences, if they are to move it.
+/// The deck with central differences, if they are to move it: it asks for no error, and they give no warning of their own.
 fn by_central_differences(loaded: &Loaded) -> Option<Loaded> {
     let source = &loaded.source;
     if !may_choose_central(&loaded.model) {
+        return None;
+    }
+    let analysis = deck::read(source).0?.analysis?;
+    if analysis.error_tolerance.is_some() || analysis.accuracy.is_some() {
         return None;
     }
     // In front of the others, so that the last ones still stand for options.
@@ -128,6 +133,10 @@ fn by_central_differences(loaded: &Loaded) -> Option<Loaded> {
         std::iter::once(CENTRAL).chain(source.sets.iter().map(|(_, set)| set.as_str())).map(str::to_owned).collect();
     let source = Source::new(source.path.clone(), source.text.clone(), &sets).with_options(source.options.clone());
     let mut central = build(source, &loaded.sets).ok()?;
+    let warns = |of: &Loaded| of.warnings.iter().filter(|said| said.is_warning()).count();
+    if warns(&central) > warns(loaded) {
+        return None;
+    }
     let (system, _, _) = prepare_model(&mut central.model.clone(), 1).ok()?;
     central.model.solution.choice = Some(choice(&central.model, &system)?);
     Some(central)

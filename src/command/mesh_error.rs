@@ -47,7 +47,7 @@ pub fn coarser_mesh(source: &Source, model: &Model) -> Result<CoarserMesh, Strin
         return Ok(mesh);
     }
     let why = "no part can have fewer elements, or a lower degree, than it has";
-    unknown(&if deck.mesh.is_none() { why.to_owned() } else { of_file(&mesh.unchanged) })
+    unknown(&if deck.mesh.is_none() || mesh.unchanged.is_empty() { why.to_owned() } else { of_file(&mesh.unchanged) })
 }
 
 /// Makes the other run with this mesh, and passes its estimate to expectations and tables.

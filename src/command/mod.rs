@@ -58,8 +58,8 @@ use hint::command_hint;
 )]
 #[command(after_help = "`rdsolve deck.toml` is short for `rdsolve run deck.toml`.
 
-Exit codes: 0 done, 1 internal error, 2 usage, 3 deck invalid, 4 did not converge, 5 an expected value was missed or folders
-differ, 6 input/output, 7 too little memory, 75 stopped by a signal: --resume goes on.")]
+Exit codes: 0 done, 1 internal error, 2 usage, 3 deck invalid, 4 did not converge or turned unstable, 5 an expected value or
+a stop was missed or folders differ, 6 input/output, 7 too little memory, 75 stopped by a signal: --resume goes on.")]
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,

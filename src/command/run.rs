@@ -52,7 +52,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     if std::env::var_os(LIFELINE).is_some() {
         std::thread::spawn(end_with_input);
     }
-    let loaded = load(&args.deck, &args.sets, Vec::new())?;
+    let loaded = load(&args.deck, &args.sets, Vec::new())?.with_chosen_scheme();
     let read_s = began.elapsed().as_secs_f64();
     let folder = args.output.clone().unwrap_or_else(|| named_after(&args.deck, "out"));
     if !args.resume {
@@ -106,7 +106,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     job.conclude(ended)
 }
 
-/// The mesh for the error of the mesh, where one is asked for or the settings for the accuracy have one. One that cannot be had ends the run.
+/// The coarser mesh for the error of the mesh, from the settings of `accuracy` or for `--mesh-error`. Without such a mesh the run ends.
 fn coarser_of(args: &RunArgs, chosen: Option<&ChosenSettings>, loaded: &Loaded) -> Result<Option<CoarserMesh>, Exit> {
     match chosen.and_then(|chosen| chosen.coarser.clone()) {
         None if args.mesh_error => coarser_mesh(&loaded.source, &loaded.model).map(Some).map_err(|why| {
@@ -165,7 +165,8 @@ pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<CaseEn
         CaseFault::Deck(errors.map(|problem| problem.draw(source, false)).collect::<Vec<_>>().join("\n"))
     };
     let read = parsed.clone().into_deck(&source);
-    let loaded = build_read(read, source, sets).map_err(|(problems, source)| faults(&problems, &source))?;
+    let loaded =
+        build_read(read, source, sets).map_err(|(problems, source)| faults(&problems, &source))?.with_chosen_scheme();
     go_on_unless(stop)?;
     let (mut loaded, chosen) = settle(loaded, 1, stop).map_err(|(problems, source)| faults(&problems, &source))?;
     go_on_unless(stop)?;

@@ -48,7 +48,7 @@ pub struct StagesTold {
     pub step_error: Option<StepError>,
     /// The `stop` of each stage or path that ended before it.
     pub missed: Vec<String>,
-    /// The time at which an equilibrium first turns unstable.
+    /// Time of the first unstable equilibrium.
     pub unstable_from: Option<f64>,
     /// The plan of the current stage; `None` where nobody reads it.
     pub plan: Option<Explanation>,

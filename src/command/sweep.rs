@@ -37,7 +37,7 @@ use sweep::names::{check_collected, check_keys};
     after_help = "A case that stands is not run again, so the same command goes on after a stop, and any number of processes may fill \
 one folder at once. A signal ends it with whole files; what was killed is run again.
 
-Exit codes: 0 all chosen cases stand, 2 usage, 3 the file of the sweep has errors, 4 a case failed, 5 expected values were missed, \
+Exit codes: 0 all chosen cases stand, 2 usage, 3 the file of the sweep has errors, 4 a case failed, 5 expected values or stops were missed, \
 6 input/output, 75 stopped by a signal"
 )]
 pub struct SweepArgs {
@@ -353,7 +353,8 @@ impl Sweep<'_> {
             let of_case = |&case: &usize| outcomes[case].warnings.iter().map(move |warning| (case, warning.as_str()));
             tell("warnings", warn, chosen.iter().filter(stands).flat_map(of_case));
             let warned = chosen.iter().filter(stands).filter(|&&case| !outcomes[case].warnings.is_empty()).count();
-            let parts = [(missed, "missed expected values"), (failed, "failed"), (pending, "are still to be run")];
+            let parts =
+                [(missed, "missed an expected value or a stop"), (failed, "failed"), (pending, "are still to be run")];
             let parts = parts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!(", {count} {what}"));
             let summary = self.folder.path.join("summary.csv");
             let total = counted(chosen.len(), "case");

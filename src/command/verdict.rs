@@ -12,10 +12,10 @@ use std::io;
 
 /// A larger part of the energy is seen in the results.
 const SEEN: f64 = 0.02;
-/// Time integration that has made a larger part of the energy has made the motion too.
+/// Largest part of the energy from time integration with which the motion counts as real.
 const BLOWN_UP: f64 = 0.5;
 
-/// Dampers may dissipate too much by this part of the energy of the motion without a line.
+/// Smallest excess of the dissipation of dampers that has a line, as part of the energy of the motion.
 const UNTOLD: f64 = 1e-3;
 
 /// The end of a run.
@@ -51,8 +51,8 @@ pub fn has_blown_up(balance: &Balance) -> bool {
     balance.generated > BLOWN_UP * balance.peak.max(balance.rounding)
 }
 
-/// Judges the end of a run by its expectations, the `stop` of stages that it has missed, the time at which an equilibrium turned unstable, and
-/// whether it has blown up. An error is one of input/output.
+/// Judges the end of a run by its expectations, the stops it has missed, the time of the first unstable equilibrium, and whether the run has blown
+/// up. An error is one of input/output.
 pub fn end(
     outcome: Outcome,
     (short, unstable_from, has_blown_up): (&[String], Option<f64>, bool),
@@ -63,9 +63,9 @@ pub fn end(
         Outcome::Io(error) => return Err(error),
         Outcome::Failed { time, failure } => {
             let status = if failure.is_of_memory() { Status::TooLittleMemory } else { Status::NotConverged };
-            let valid_until = Some(failure.valid_until().unwrap_or(time)).filter(|_| !has_blown_up);
+            let valid_until = failure.valid_until().or((!has_blown_up).then_some(time));
             is_valid_before = valid_until.is_some_and(|until| until < time);
-            let invalid = match (has_blown_up, failure.to_string().contains('\n')) {
+            let invalid = match (valid_until.is_none(), failure.to_string().contains('\n')) {
                 (false, _) => "",
                 (true, true) => "\n  results before this time are not valid: see the growth of energy",
                 (true, false) => "; results before this time are not valid: see the growth of energy",
@@ -91,6 +91,8 @@ pub fn end(
             }
         }
     };
+    let valid_until = valid_until.map(|time| unstable_from.map_or(time, |unstable| unstable.min(time)));
+    is_valid_before |= unstable_from.is_some();
     Ok(End { status, reason: reason.join("; "), valid_until, is_valid_before })
 }
 

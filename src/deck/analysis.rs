@@ -23,9 +23,9 @@ pub struct Analysis {
     /// The run goes from t = 0 to this time, above 0; with arc-length control until the load first reaches it. Required for "dynamic" and
     /// "static"; with control = "displacement" the time at which loads without amplitude have their value, 1 by default.
     pub end_time: Maybe<f64>,
-    /// Length of the time steps, above 0, or "auto": as long as `error_tolerance` allows, with central-
-    /// difference as long as is stable. Without a scheme and an error, blows of deformable parts take central-difference. With arc-length control the length of the first step, which sets the
-    /// arc length of the others. Required for "dynamic" without `accuracy` and for "static", without effect with control = "displacement".
+    /// Length of the time steps, above 0, or "auto": as long as `error_tolerance` allows, with central-difference as long as is stable. Without a
+    /// scheme and an error, "auto" chooses central-difference for blows of deformable parts. With arc-length control the length of the first step,
+    /// which sets the arc length of the others. Required for "dynamic" without `accuracy` and for "static", without effect with control = "displacement".
     pub time_step: Maybe<NumberOrAuto>,
     /// Error of the results from time steps, iteration, mesh and contact stiffness together, relative to the largest change of each
     /// result; between 0 and 1. Pilot runs choose what meets it. Results are displacements of `[output]` nodes and of bodies, rotations of

@@ -504,11 +504,7 @@ impl<'d> Expects<'_, 'd> {
             let message = format!("an expected value has `time` or `stage`, and this one is at t = {time}");
             return self.report.error_with(&stage.span, message, hint);
         }
-        let end = match self.scene.stage {
-            Some(stage) if stage.sequence.is_shortened => f64::INFINITY,
-            Some(stage) => stage.sequence.end(),
-            None => self.scene.analysis.end_time,
-        };
+        let end = self.end_of_run();
         match (given, &expect.peak) {
             (None, None) if expect.stage.is_some() && expect.at_least.is_none() && expect.at_most.is_none() => {
                 Some(When::End)
@@ -529,6 +525,15 @@ impl<'d> Expects<'_, 'd> {
             (None, None) if expect.at_most.is_some() => Some(When::Max),
             (None, None) if ["time", "peak", "when"].iter().any(|key| self.report.is_spoiled(owner.span, key)) => None,
             (None, None) => self.report.error(owner.span, format!("{} needs `time` or `peak`", owner.what)),
+        }
+    }
+
+    /// The latest time that the run may reach.
+    fn end_of_run(&self) -> f64 {
+        match self.scene.stage {
+            Some(stage) if stage.sequence.is_shortened => f64::INFINITY,
+            Some(stage) => stage.sequence.end(),
+            None => self.scene.analysis.end_time,
         }
     }
 

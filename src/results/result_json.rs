@@ -20,11 +20,11 @@ pub const UNMARKED: &str = "result.json.tmp";
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
-    /// The run came to its end, and all expectations are met.
+    /// The run came to its end, and met all expectations and required stops.
     Done,
     /// No step could be taken any more, or an equilibrium is unstable; results are valid up to the time named.
     NotConverged,
-    /// The run came to its end, and at least one expectation, or the `stop` of a stage, is missed.
+    /// The run came to its end, and missed an expectation or the required `stop` of a stage or path.
     ExpectationMissed,
     /// A signal has stopped the run after a whole step.
     Stopped,
@@ -54,7 +54,7 @@ pub struct RunResult {
     pub exit_code: u8,
     /// The reason for the end in one sentence. It is empty when done.
     pub reason: String,
-    /// The time up to which results are valid, if the run stopped early.
+    /// The time up to which results are valid, if the run stopped early or an equilibrium is unstable.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub valid_until: Option<f64>,
     /// The deck and the program that the results come from.

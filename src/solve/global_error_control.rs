@@ -258,8 +258,8 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// True if jumps and kinks of loads determine most steps of the run. A comparison run with steps to kinks would have the same, so it steps across them.
-    /// If it does not bound the error, a division of the intervals between them follows once.
+    /// True if jumps and kinks of loads determine most steps of the run. A comparison run that ends steps on kinks would have the same steps, so it
+    /// steps across them. If it does not bound the error, rdsolve divides the intervals between kinks once.
     fn is_dictated(&self, GlobalErrorControl { judged: Judged { run, .. }, pieces, .. }: &GlobalErrorControl) -> bool {
         let inside = self.controller.looks_inside();
         let schedule = Schedule::of_trial(self.context.model, std::iter::empty(), inside).until(run.end());

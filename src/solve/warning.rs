@@ -375,7 +375,7 @@ fn grows(modes: usize, rate: f64, fastest: usize) -> String {
 }
 
 impl Warning {
-    /// The time after which results are not valid; `None` where the warning does not say so.
+    /// The time after which results are not valid; `None` for other warnings than a certainly unstable equilibrium.
     pub fn unstable_from(&self) -> Option<f64> {
         match self {
             Warning::Unstable(Instability { certain: true, time, .. }) => Some(*time),

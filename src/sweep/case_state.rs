@@ -79,7 +79,7 @@ pub struct Computed {
     pub numbers: Vec<Option<f64>>,
 }
 
-/// A reason as one line: of an excerpt from a deck the remedy at its caret alone.
+/// A reason as one line. An excerpt from a deck is reduced to the remedy at its caret.
 pub fn one_line(text: &str) -> String {
     let told = |line: &'_ str| {
         let line = line.trim();

@@ -15,15 +15,16 @@ pub fn check_keys(case: &Source) -> Vec<Diagnostic> {
     deck::read(case).1.into_iter().filter(|problem| problem.is_error() && is_of_set(problem)).collect()
 }
 
-/// The stages and subjects of `[collect]` that the deck of a case does not know. A subject is refused only where a similar name stands in the
-/// deck, for a mesh file and the program name some themselves.
+/// The stages and subjects of `[collect]` that the deck of a case does not know. A subject is refused only where the deck has a similar
+/// name, because rdsolve and mesh files add further names.
 pub fn check_collected(file: &SweepFile, case: &Source) -> Vec<Diagnostic> {
     let Some(deck) = deck::read(case).0 else { return Vec::new() };
     let is_letter = |c: char| c.is_alphanumeric() || "_-".contains(c);
     let in_deck = || case.text.lines().flat_map(names_in);
     let subject = |one: &Collected| {
         let name = one.at.split(|c| !is_letter(c)).next().unwrap_or_default();
-        let is_known = deck.mesh.is_some() || OF_PROGRAM.contains(&name) || case.text.contains(name);
+        let stands = case.text.contains(name) || case.sets.iter().any(|(_, set)| set.contains(name));
+        let is_known = stands || deck.mesh.is_some() || OF_PROGRAM.contains(&name) || name.parse::<u64>().is_ok();
         let near = if is_known { None } else { nearest(name, in_deck()) }?;
         let message = format!("`{}` of [collect]: the deck has no `{name}`", one.name);
         Some(Diagnostic::error(message).hint(format!("did you mean `{near}`?")))

@@ -136,23 +136,27 @@ fn expected_values_have_bars() {
 
 /// Where nothing is known that is said, and why; steps of given length have no bars of their own.
 #[test]
-fn what_is_not_known_is_said() {
+fn what_cannot_be_known_is_refused_before_the_run() {
     let folder = tempfile::tempdir().unwrap();
     let (result, _) = run(B1, &[], &[], folder.path());
     assert!(result.get("error_bars").is_none());
-    for (deck, why) in [
-        ("hinged_roof/deck.toml", "paths of given arc length"),
-        ("four_bar/deck.toml", "there is none, for nothing deforms"),
-        ("meshed_bracket/deck.toml", "cannot coarsen them"),
-    ] {
-        let short = ["analysis.end_time=0.2", "expect=[]"];
-        let sets = if deck.starts_with("four") { &short[..] } else { &short[1..] };
-        let (result, said) = run(deck, &["--mesh-error"], sets, folder.path());
-        assert!(said.contains("the error of the mesh is") && said.contains(why), "{deck}: {said}");
-        let warnings = result["warnings"].as_array().unwrap();
-        assert!(warnings.iter().any(|warning| warning.as_str().unwrap().contains(why)), "{deck}");
-        assert!(fs::read_to_string(folder.path().join("run.log")).unwrap().contains(why), "{deck}");
+    for (deck, why) in
+        [("hinged_roof/deck.toml", "along a path"), ("four_bar/deck.toml", "there is none, for nothing deforms")]
+    {
+        let out = folder.path().join("refused");
+        let path = support::decks().join(deck);
+        let refused =
+            Command::cargo_bin("rdsolve").unwrap().arg(&path).arg("-o").arg(&out).arg("--mesh-error").output().unwrap();
+        let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert_eq!(refused.status.code(), Some(2), "{deck}: {said}");
+        assert!(said.contains("the error of the mesh is not known") && said.contains(why), "{deck}: {said}");
+        assert!(!out.exists(), "{deck}");
     }
+    let (result, said) = run("meshed_bracket/deck.toml", &["--mesh-error"], &["expect=[]"], folder.path());
+    let why = "the error of the mesh is that of a part only";
+    assert!(said.contains(why), "{said}");
+    assert!(result["warnings"].as_array().unwrap().iter().any(|warning| warning.as_str().unwrap().contains(why)));
+    assert!(fs::read_to_string(folder.path().join("run.log")).unwrap().contains(why));
 }
 
 /// A box that tumbles, lands on a corner and slides: impacts leave errors that shorter steps hardly lessen. Runs with equal steps of 2e-5, 1e-5

@@ -220,9 +220,9 @@ impl Search {
         }
         let told = self.compared(pilots, &all);
         let Ok((difference, run)) = told else { return };
+        self.last = Some((difference, apart));
         let apart = apart.min(UNMEASURED);
         self.earlier.push((all, apart, run));
-        self.last = Some((difference, apart));
         if is_whole {
             let each = difference / (apart - 1.0) / self.now.len() as f64;
             self.errors.fill(each);

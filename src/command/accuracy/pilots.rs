@@ -12,8 +12,8 @@ use solve::system::System;
 use solve::{Counts, Outcome, Run, StepError, comparison_times};
 use std::sync::atomic::AtomicBool;
 
-/// Ratio of the step tolerance of the first run to the error asked for: steps about twice as long by a scheme of third order. Longer ones damp the
-/// vibrations in which meshes differ: with tolerances of 1e-2 the mesh under a sudden load seemed 60 times as good as it was, at 1e-4.
+/// Ratio of the step tolerance of the first run to the error asked for: steps about twice as long by a scheme of third order. Longer steps damp
+/// vibrations that distinguish meshes. At an error of 1e-4 under a sudden load, a tolerance of 1e-2 made the error of the mesh seem 60 times too small.
 const LOOSER: f64 = 10.0;
 /// The largest of these tolerances, with which steps still resolve the motion.
 const RESOLVES: f64 = 0.05;

@@ -34,21 +34,7 @@ pub fn check_loose(model: &Model, report: &mut Report) {
     let masses = model.masses.iter().map(|mass| (model.nodes[mass.node].label.as_str(), mass.node));
     let all: Vec<(&str, usize)> = parts.chain(bodies.chain(masses).filter(|_| !is_static)).collect();
     if !all.iter().any(|(_, node)| groups.of(*node) == ground) {
-        let is_still = model.nodes.iter().all(|node| node.v.norm() + node.omega.norm() == 0.0);
-        let lands = model.parts.iter().any(|part| !part.touched_nodes().is_empty());
-        let deforms = model.parts.iter().any(|part| part.kind().is_deformable());
-        let is_meant = lands || !(is_static || falls && is_still && model.loading.nodal.is_empty());
-        if let Some((name, node)) = all.first().filter(|_| !is_meant && deforms) {
-            let does = if is_static { "there is no static equilibrium" } else { "all of them fall freely" };
-            let message = format!("no support, joint or contact holds `{name}` or any other part: {does}");
-            report.warn(&place(*node), message, "add `[[supports]]`");
-        } else if let Some((name, node)) = all.first().filter(|_| falls && !is_static && !lands_on_ground(model)) {
-            let message = format!(
-                "no support, joint or contact holds `{name}` or any other part to the ground: all of them fall freely"
-            );
-            report.note(&place(*node), message, "add `[[supports]]`, if that is not meant");
-        }
-        return;
+        return tell_of_all_free(model, all.first(), (is_static, falls), report);
     }
     note_alike(model, &all, (&mut groups, ground), report);
     for (name, node) in all {
@@ -67,12 +53,43 @@ pub fn check_loose(model: &Model, report: &mut Report) {
     }
 }
 
-/// Notes parts that start with the velocity of parts in the group of the ground, which nothing joins to them.
+/// Tells that nothing holds the `first` part or any other, unless that seems to be meant.
+fn tell_of_all_free(
+    model: &Model,
+    first: Option<&(&str, usize)>,
+    (is_static, falls): (bool, bool),
+    report: &mut Report,
+) {
+    let Some((name, node)) = first else { return };
+    let place = model.nodes[*node].place.map_or(0..0, |[from, to]| from..to);
+    let is_still = model.nodes.iter().all(|node| node.v.norm() + node.omega.norm() == 0.0);
+    let lands = model.parts.iter().any(|part| !part.touched_nodes().is_empty());
+    let deforms = model.parts.iter().any(|part| part.kind().is_deformable());
+    let is_meant = lands || !(is_static || falls && is_still && model.loading.nodal.is_empty());
+    if !is_meant && deforms {
+        let does = if is_static { "there is no static equilibrium" } else { "all of them fall freely" };
+        let message = format!("no support, joint or contact holds `{name}` or any other part: {does}");
+        report.warn(&place, message, "add `[[supports]]`");
+    } else if falls && !is_static && !lands_on_ground(model) {
+        let message = format!(
+            "no support, joint or contact holds `{name}` or any other part to the ground: all of them fall freely"
+        );
+        report.note(&place, message, "add `[[supports]]`, if that is not meant");
+    }
+}
+
+/// Notes parts with the initial velocity of other parts, if only the others are joined to the ground.
 fn note_alike(model: &Model, all: &[(&str, usize)], (groups, ground): (&mut Groups, usize), report: &mut Report) {
     let v = |node: usize| model.nodes[node].v;
     let (held, others): (Vec<_>, Vec<_>) = all.iter().partition(|(_, node)| groups.of(*node) == ground);
     let alike = |node: usize| v(node).norm() > 0.0 && held.iter().any(|(_, other)| v(*other) == v(node));
+    let mut told = Vec::new();
     for (name, node) in others.into_iter().filter(|(_, node)| alike(*node)) {
+        let group = groups.of(node);
+        if told.contains(&group) {
+            continue;
+        }
+        told.push(group);
         let place = model.nodes[node].place.map_or(0..0, |[from, to]| from..to);
         let message = format!("`{name}` starts with the velocity of other parts, and nothing joins it to them");
         report.note(

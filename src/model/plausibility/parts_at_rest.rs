@@ -5,7 +5,7 @@ use crate::report::Report;
 use base::names::short;
 use std::collections::BTreeSet;
 
-/// Notes a part at rest at t = 0 that shares nodes with one that moves as a whole: between neighbouring nodes the velocity then jumps.
+/// Notes a part at rest at t = 0 that shares nodes with a part in translation: the velocity then jumps between neighbouring nodes.
 pub fn check_parts_at_rest(model: &Model, report: &mut Report) {
     if model.analysis.kind != AnalysisKind::Dynamic {
         return;

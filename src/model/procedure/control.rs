@@ -102,6 +102,13 @@ fn by_displacement<'d>(
     if let Some(at) = analysis.stop.as_ref().and_then(|at| at.pass.as_ref()) {
         report.error_with::<()>(&at.span, "a displacement that steps move passes its value once", "remove `pass`");
     }
+    if let Some(at) = analysis.stop.as_ref().and_then(|at| at.required.as_ref()) {
+        report.error_with::<()>(
+            &at.span,
+            "steps of displacement control end at `stop`, or the run fails",
+            "remove `required`",
+        );
+    }
     let increment = report.positive("increment", &analysis.increment).unwrap_or(stop.value.abs() / INCREMENTS);
     if let Some(at) = analysis.increment.as_ref().filter(|at| at.value > stop.value.abs()) {
         let message = format!("`increment` must not exceed the displacement of `stop`, which is {}", stop.value);

@@ -13,7 +13,7 @@ pub const KEY: &str = "mass_scaling_step";
 pub fn masses(integrator: Option<&At<OneOf<Integrator>>>) -> Option<ElementMasses> {
     let table = integrator.filter(|table| is_central(table))?;
     let word = table.mass_scaling.as_ref().map_or_else(RotaryInertia::default, |word| word.value);
-    // Another step is an error, which is reported where the scheme is read.
+    // The check of the scheme reports a step of 0 or less.
     let step = table.values.numbers(KEY).first().copied().filter(|&step| step > 0.0);
     Some(match (step, word) {
         (Some(step), _) => ElementMasses::ForStep(step),

@@ -20,7 +20,7 @@ pub struct LineSearch {
     multipliers: Vec<f64>,
     /// Work of the residual before the correction along it.
     at_start: f64,
-    /// The current part of the correction. The work changes its sign between `low` and `high`, each a part and its work.
+    /// The current part of the correction. The work changes its sign between `low` and `high`; each holds a part and its work.
     part: f64,
     low: [f64; 2],
     high: Option<[f64; 2]>,
@@ -111,11 +111,11 @@ impl LineSearch {
     }
 
     /// The factor on the current part of the correction, which has this work. Contacts that close or stick become a thousand times stiffer within
-    /// a short way, and the secant falls short of the zero. The bracket then moves up. Without contacts half of the part takes fewer iterations.
+    /// a short way, and the secant falls short of the zero. The bracket then moves up. Without contacts, halving the part needs fewer iterations.
     fn next_factor(&mut self, work: f64) -> f64 {
         match (work < 0.0, self.high) {
             (true, _) => self.high = Some([self.part, work]),
-            (false, Some(_)) if self.encloses => self.low = [self.part, work],
+            (false, Some(_)) if self.encloses && work.is_finite() => self.low = [self.part, work],
             // The work grew.
             (false, _) => return 0.5,
         }

@@ -47,7 +47,7 @@ fn to_five(value: f64) -> f64 {
     to_digits(value, 5).parse().unwrap_or(value)
 }
 
-/// The resonance between a row and the one before, by the component that moves most among those that show one.
+/// The resonance between a row and the one before. Of the components that show one, the largest counts.
 fn missed(rows: &[ResponseRow], after: usize) -> Option<Missed> {
     let places = (0..rows[after].motions.len()).flat_map(|node| (0..6).map(move |dof| (node, dof)));
     places.filter_map(|place| missed_by(rows, after, place)).max_by(|a, b| a.share.total_cmp(&b.share))

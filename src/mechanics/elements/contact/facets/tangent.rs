@@ -156,10 +156,12 @@ fn gradients(facet: &Facet, at: &FacetPoint, p: &[Vec3; 4]) -> ([Vec3; 3], Mat3)
 const STEPS: [f64; 2] = [1e-6, 1e-10];
 /// Step of these differences as a part of the way to the next kink of the force: a stretch, or a depth.
 const BEFORE_KINK: f64 = 0.01;
+/// A gap, as a part of the distance at touch, that rounding may have made.
+const FIRST_TOUCH: f64 = 1e-9;
 
 /// Friction by central differences of its forces, each motion together with its rate. A stiff contact slips after nanometres, and steps beyond would
-/// mix sticking with slipping. A sticking pair is kept sticking in the differences, and so is one at first touch: it has no force yet and would slip
-/// at the smallest step, in a direction that is rounding.
+/// mix sticking with slipping. The differences keep sticking pairs sticking, also pairs at first touch. These have no force yet, and would slip at the
+/// smallest step in a direction set by rounding.
 fn add_friction(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight: f64, K: &mut [f64]) {
     let count = pair.point.count + pair.facet.corners;
     let mut local = [Node::at_rest(Vec3::zeros()); MOST_OF_PAIR + MOST_CORNERS + 2];
@@ -182,8 +184,8 @@ fn add_friction(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight
     let left = Facet { nodes: left, ..pair.kept.clone() };
     let kept = if std::ptr::eq(pair.kept, pair.facet) { &facet } else { &left };
     let force = pair.force(place, nodes);
-    let is_pressed = force.pressed() > 0.0;
-    let slipping = force.friction.as_ref().filter(|friction| is_pressed && friction.slip != Vec3::zeros());
+    let begins = force.pressed() <= 0.0 && place.gap().abs() <= FIRST_TOUCH * place.reach;
+    let slipping = force.friction.as_ref().filter(|friction| !begins && friction.slip != Vec3::zeros());
     let to_kink = slipping.map_or(force.normal.force, |friction| friction.T.norm()) / pair.law.stiffness;
     let slips = slipping.is_some();
     let pair = FacetPair { point, facet: &facet, kept, kept_line, sticks: !slips, ..pair.clone() };
