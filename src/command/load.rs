@@ -51,7 +51,7 @@ pub fn read_with(source: &Source, sets: &[String]) -> Result<Model, String> {
 }
 
 impl Loaded {
-    /// The same deck with the scheme that rdsolve chooses for automatic steps, if it chooses another than the default.
+    /// This deck with central differences, if rdsolve chooses them for its automatic steps.
     pub fn with_chosen_scheme(self) -> Loaded {
         by_central_differences(&self).unwrap_or(self)
     }
@@ -118,7 +118,7 @@ pub fn build_read(deck: DeckRead, source: Source, sets: &[String]) -> Result<Loa
     }
 }
 
-/// The deck with central differences, if they are to move it: it asks for no error, and they give no warning of their own.
+/// The deck with central differences; `None` where it asks for an error, or where central differences add a warning or take too many steps.
 fn by_central_differences(loaded: &Loaded) -> Option<Loaded> {
     let source = &loaded.source;
     if !may_choose_central(&loaded.model) {

@@ -296,7 +296,7 @@ fn check_start(
     let size = nodes.map(|node| topology.x(node).norm()).fold(center.norm(), f64::max);
     let outermost = solids.iter().map(|one| surface.distance(&(topology.x(one.node) - center)));
     let outermost = points.iter().map(distance).chain(outermost).fold(f64::NEG_INFINITY, f64::max);
-    // What rests or starts a trace too low stands on the right side.
+    // A point at its depth at rest, or a trace too low, stands on the right side.
     let is_behind = -outermost > (1.001 * at_rest).max(1e-3 * size);
     if matches!(surface.shape, SurfaceShape::Plane(_)) && is_behind {
         let message =

@@ -53,7 +53,7 @@ pub fn check_loose(model: &Model, report: &mut Report) {
     }
 }
 
-/// Tells that nothing holds the `first` part or any other, unless that seems to be meant.
+/// Tells that nothing holds the `first` part or any other. A deck that means this gets no message.
 fn tell_of_all_free(
     model: &Model,
     first: Option<&(&str, usize)>,

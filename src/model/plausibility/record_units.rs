@@ -132,7 +132,7 @@ fn note_conversion(deck: &Deck, used: &Use, (file, unit): (&str, &RecordUnit), f
     report.note(used.place, message, hint);
 }
 
-/// Notes that the scale of a motion takes the place of the conversion that the header asks for.
+/// Notes that the scale of a motion replaces the conversion by the header.
 fn note_scale(deck: &Deck, used: &Use, (words, unit): (&Amplitude, &RecordUnit), report: &mut Report) {
     let (Some(units), Some(scale), None, Some((quantity, si))) = (&deck.units, used.scale, &words.scale, unit.known)
     else {

@@ -17,9 +17,9 @@ const G: f64 = 9.80665;
 /// 100 times.
 const PEAKS: [f64; 3] = [0.02, 0.1, 5.0];
 
-/// A scale takes the place of a conversion if it is one up to this part of it, ...
+/// A scale replaces the conversion if both differ by less than this part, ...
 const WRITTEN: f64 = 1e-3;
-/// ... and seems to convert once more up to this part.
+/// ... and seems to convert once more if they differ by less than this one.
 const ROUNDED: f64 = 0.01;
 
 /// A use of a record as a motion in the deck.
@@ -130,7 +130,7 @@ fn largest(record: &Record) -> f64 {
     record.points.iter().fold(0.0, |largest: f64, [_, value]| largest.max(value.abs()))
 }
 
-/// True for a scale that is this factor between units in the digits that people write, such as 9.8 or 9.81 for 9.80665.
+/// True for a scale that is this factor between units, rounded as in decks: 9.8 or 9.81 for 9.80665.
 pub fn is_factor(scale: f64, factor: f64) -> bool {
     (scale.abs() / factor - 1.0).abs() < WRITTEN
 }
