@@ -12,6 +12,7 @@ use super::value::{Problem, Value, Wanted, Wrong};
 use super::{Deck, Spoiled, actuators, aliases, hints, lengths, number_slips, profiles, set, study, tables};
 use base::diagnostic::{Diagnostic, Source, Span};
 use base::names::{nearest, quoted};
+use base::text_file::foreign;
 
 /// Where the table of the top-level keys stands.
 pub const ROOT: Span = 0..0;
@@ -42,10 +43,11 @@ impl<'t> ParsedText<'t> {
         reader.problems.extend(slip.clone());
         let (root, syntax) = DeTable::parse_recoverable(plain);
         let mut root = root.into_inner();
-        if text.trim_start().starts_with("$MeshFormat") {
+        if let Some((kind, hint)) = foreign::recognized(text) {
             reader.broken.push(0..text.len());
-            let hint = "a deck names it: `[mesh]` with `file = \"NAME.msh\"`; its physical groups are sets there";
-            reader.problems.push(Diagnostic::error("this is a mesh of Gmsh, and no deck").at(&(0..11)).hint(hint));
+            let first = text.lines().next().map_or(0, str::len);
+            let message = format!("this is {kind}, and no deck");
+            reader.problems.push(Diagnostic::error(message).at(&(0..first)).hint(hint));
         }
         for error in &syntax {
             reader.syntax(text, error);

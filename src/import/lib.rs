@@ -76,7 +76,7 @@ pub use urdf::import_robot;
 pub use verdicts::{KeywordVerdict, VerdictRow, Verdicts};
 
 use base::diagnostic::Diagnostic;
-use base::text_file::{Text, includes};
+use base::text_file::{Text, foreign, includes};
 use importer::Importer;
 use keyword_block::KeywordBlock;
 use keywords::Treatment;
@@ -125,15 +125,19 @@ pub fn import(text: &mut Text, options: &ImportOptions) -> Imported {
     }
     let built = assemble::build(&mut im, &options.mesh_file);
     let has = |words: &[&str], block: &KeywordBlock| words.contains(&block.keyword.key().as_str());
-    let is_of_gmsh = text.bytes.trim_ascii_start().starts_with(b"$MeshFormat");
     let is_mesh = blocks.iter().any(|block| has(&["NODE"], block)) && blocks.iter().all(|block| has(IN_MESHES, block));
-    if is_of_gmsh || is_mesh {
-        // Other verdicts would ask for changes, and `[mesh]` reads this mesh without them.
+    let alone = || {
+        is_mesh.then_some((
+            "a mesh alone, without *STEP",
+            "name it in a deck: `[mesh] file = \"NAME.inp\"`; its sets are groups there",
+        ))
+    };
+    if let Some((kind, hint)) = foreign::recognized(&String::from_utf8_lossy(text.bytes)).or_else(alone) {
+        // Other verdicts would ask for changes to a file that is read otherwise.
         im.verdicts = Verdicts::new(std::mem::take(&mut im.verdicts.keywords));
-        let about = if is_of_gmsh { "this file is a mesh of Gmsh" } else { "this file is a mesh alone, without *STEP" };
-        let hint = format!("name it in a deck: `[mesh] file = \"{}\"`; its sets are groups there", text.path);
-        let said = Box::new(Diagnostic { hints: vec![hint], ..*text.fault(about, 1) });
-        im.verdicts.add(text, KeywordVerdict::Refused, 1, Some(said), about.to_owned());
+        let about = format!("this file is {kind}");
+        let said = Box::new(Diagnostic { hints: vec![hint.to_owned()], ..*text.fault(about.as_str(), 1) });
+        im.verdicts.add(text, KeywordVerdict::Refused, 1, Some(said), about);
     }
     for (block, row) in blocks.iter().zip(&rows) {
         let line = block.keyword.line;

@@ -27,6 +27,16 @@ fn meshes_alone() {
     let gmsh = imported("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n").verdicts.said();
     assert_eq!(gmsh.len(), 1);
     assert_eq!((&*gmsh[0].message, gmsh[0].hints.len()), ("this file is a mesh of Gmsh", 1));
+    for (begin, kind) in [
+        ("$ made elsewhere\nSOL 101\nCEND\n", "a model of Nastran"),
+        ("GRID,1,,0.,0.,0.\n", "a model of Nastran"),
+        ("    -1\n   164\n", "a universal file of I-DEAS"),
+        ("# vtk DataFile Version 2.0\n", "a mesh of VTK"),
+    ] {
+        let said = imported(begin).verdicts.said();
+        assert_eq!((said.len(), said[0].message.clone()), (1, format!("this file is {kind}")));
+        assert!(said[0].hints[0].contains("Gmsh or meshio"), "{:?}", said[0].hints);
+    }
     let more = refusals(&imported(&format!("{mesh}*MATERIAL, NAME=m\n")));
     assert!(more.iter().any(|said| said.contains("the file has no *STEP")), "{more:?}");
     assert!(more.iter().any(|said| said.contains("no plane elements")), "{more:?}");

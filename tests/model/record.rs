@@ -54,7 +54,7 @@ fn what_is_wrong_is_said() {
         ("0,1\n2,1\n1,1\n", &plain, "the time falls: 1 comes after 2"),
         ("0,1\n0,2\n0,3\n", &plain, "more than twice"),
         ("0,1\n1,2,3\n", &plain, "the line has 3 columns, those before it 2"),
-        ("\"t, s\",x\n0,1\n", &plain, "the line of names has 3 columns, that of numbers 2"),
+        ("t,s,x\n0,1\n", &plain, "the line of names has 3 columns, that of numbers 2"),
         (
             "0\t1\t2\n1\t\t2\n",
             &select(&[RecordColumn::Number(1), RecordColumn::Number(2)], None),
@@ -180,7 +180,7 @@ fn rows_without_a_header() {
     }
     for (text, said) in [
         ("1 2 x\n", "`x` is not a finite number"),
-        ("0,1 0,2\n", "`0,1` is not a finite number"),
+        ("0.5 0.7\n0,1 0,2\n", "`0,1` is not a finite number"),
         ("text alone\n", "two values or more"),
         ("1 ****** 2\n", "`******` is not"),
     ] {
@@ -357,9 +357,55 @@ fn columns_name_their_units() {
     let blanks = "Time (s)  Acc (cm/s2)  Vel (cm/s)\n0.0 1.0 2.0\n0.1 3.0 4.0\n";
     assert_eq!(unit(blanks, 2), Some(RecordUnit::new("cm/s2")));
     assert_eq!(points(blanks, &select(&[name("Time (s)"), name("Vel (cm/s)")], None)), [[0.0, 2.0], [0.1, 4.0]]);
+    // Behind a stroke; last in each name, the first being a unit of time; in a comment or a title; below other titles.
+    let acceleration = |si: f64| Some((MotionQuantity::Acceleration, si));
+    for (head, known) in [
+        ("t/s,a/g", acceleration(9.80665)),
+        ("time_s,acc_gal", acceleration(0.01)),
+        ("Time s,Acc cm/s2", acceleration(0.01)),
+        ("% Time(s) Accel(g)", acceleration(9.80665)),
+        ("# units: g, dt = 1 s\nt,a", acceleration(9.80665)),
+        ("El Centro 1940 NS\nTIME SERIES IN UNITS OF G\nt,a", acceleration(9.80665)),
+        ("Corrected Acceleration\n\nTime [sec]\tAcceleration [g]", acceleration(9.80665)),
+        ("t;a [m s\u{207b}\u{b2}]\n-----", acceleration(1.0)),
+        ("t,\"a, filtered (cm\u{b7}s^-2)\"", acceleration(0.01)),
+        // In the codes, a_g is the acceleration of the ground in any unit.
+        ("t,a_g", None),
+        ("station 7,g", None),
+    ] {
+        let found = unit(&format!("{head}\n0,1\n1,3\n"), 2);
+        assert_eq!(found.and_then(|unit| unit.known), known, "{head}");
+    }
     // A name alone is no unit, nor is a word in brackets that is none.
     assert_eq!(unit("t,g\n0,1\n1,3\n", 2), None);
     assert_eq!(unit("t,a (raw)\n0,1\n1,3\n", 2), None);
+}
+
+/// Spreadsheets write decimal commas, quotation marks, a line for the separator, empty rows and UTF-16.
+#[test]
+fn spreadsheets_are_read() {
+    let wanted = [[0.0, -0.5], [0.005, 0.25], [0.01, 1250.0]];
+    let text = "sep=;\r\nt (s);a (g)\r\n0;-0,5\r\n0,005;2,5e-1\r\n\"0,01\";\"1250\"\r\n;\r\n";
+    assert_eq!(points(text, &select(&[], None)), wanted);
+    let utf16 = |unit: fn(u16) -> [u8; 2]| format!("\u{feff}{text}").encode_utf16().flat_map(unit).collect::<Vec<u8>>();
+    for bytes in [utf16(u16::to_le_bytes), utf16(u16::to_be_bytes)] {
+        assert_eq!(read("r.csv", &bytes, &select(&[], None)).unwrap().points, wanted);
+    }
+    // A comma may separate thousands or columns, and then it stays.
+    assert!(faults("1,000 2,500\n2,000 1,500\n", &select(&[], None))[0].contains("a line has 3 values"));
+    assert_eq!(points("0,5\n1,7\n", &select(&[], None)), [[0.0, 5.0], [1.0, 7.0]]);
+    assert_eq!(points("0, 5\n1, 7\n", &select(&[], None)), [[0.0, 5.0], [1.0, 7.0]]);
+}
+
+/// A first line `count step` is a header if the file has as many values as it says.
+#[test]
+fn a_count_and_a_step_are_a_header() {
+    let text = "Station, NS\n10 0.02\n1 2 3 4\n5 6 7 8\n9 10\n";
+    for rows in [None, Some(true)] {
+        let found = points(text, &RecordSelection { rows, ..select(&[], None) });
+        assert_eq!((found.len(), found[0], found[9]), (10, [0.0, 1.0], [9.0 * 0.02, 10.0]));
+    }
+    assert_eq!(points("10 0.5\n11 0.6\n", &select(&[], None)), [[10.0, 0.5], [11.0, 0.6]]);
 }
 
 /// Times are converted to the unit that is asked for if the file names its own: headers of data bases count in seconds.

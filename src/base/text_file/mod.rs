@@ -2,6 +2,7 @@
 
 pub mod cards;
 mod file;
+pub mod foreign;
 pub mod includes;
 mod text;
 

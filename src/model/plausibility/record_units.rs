@@ -44,7 +44,7 @@ pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut 
                 used.what,
                 used.quantity.word()
             );
-            report.warn(used.place, message, remedy(quantity));
+            report.error_with::<()>(used.place, message, remedy(quantity));
             continue;
         }
         if let Some(place) = words.unit.as_ref().map(|at| &at.span).filter(|_| deck.units.is_none()) {

@@ -6,7 +6,8 @@
 //! - K-NET and KiK-net: lines `Sampling Freq(Hz) 100Hz` and `Scale Factor 3920(gal)/6182761`; the last line is `Memo.`.
 //! - CSMIP, volume 2: `5372 points of accel data equally spaced at .010 sec, in cm/sec2`; velocities and displacements follow.
 
-use super::number::{is_number_like, whole};
+use super::head::is_comment;
+use super::number::{is_number_like, numbers, whole};
 use super::unit::RecordUnit;
 use base::text_file::{Fault, Text, TextLine};
 
@@ -42,11 +43,10 @@ pub fn find(path: &str, bytes: &[u8]) -> Result<Option<Header>, Fault> {
     let mut text = Text::new(path, bytes);
     let mut found = Found::default();
     while let Some(line) = text.line().filter(|line| line.number <= LONGEST) {
-        // A tab has the place of a blank.
-        let words = String::from_utf8_lossy(line.bytes).trim().to_ascii_uppercase().replace('\t', " ");
-        if words.starts_with(['#', '%', '!']) {
+        if is_comment(line) {
             continue;
         }
+        let words = words(line);
         if words.contains(ACCELERATIONS) {
             return csmip(&text, line, &words).map(Some);
         }
@@ -60,6 +60,27 @@ pub fn find(path: &str, bytes: &[u8]) -> Result<Option<Header>, Fault> {
         }
     }
     Ok(found.header())
+}
+
+/// The header of a file that begins with the number of its values and the time between two, after lines of text; `None` for others.
+pub fn counted(path: &str, bytes: &[u8]) -> Option<Header> {
+    let mut text = Text::new(path, bytes);
+    let lines = std::iter::from_fn(|| text.line()).filter(|line| !is_comment(*line));
+    let mut lines = lines.skip_while(|line| !is_number_like(&String::from_utf8_lossy(line.bytes)));
+    let first = lines.next()?;
+    let [count, step] = numbers(first).map(|word| word.number()).collect::<Option<Vec<f64>>>()?.try_into().ok()?;
+    // A shorter file might be two columns.
+    let is_count = count.fract() == 0.0 && (10.0..1e9).contains(&count) && step > 0.0;
+    let is_counted = is_count && lines.map(|line| numbers(line).count()).sum::<usize>() == count as usize;
+    is_counted.then(|| Header {
+        count: Some(count as usize),
+        step,
+        unit: None,
+        factor: 1.0,
+        has_offset: false,
+        has_more_blocks: false,
+        last_line: first.number,
+    })
 }
 
 /// Reports files of data bases whose numbers are not those of one record alone: COSMOS and SMC.
@@ -140,8 +161,13 @@ impl Found {
     }
 }
 
+/// The line in capitals; a tab has the place of a blank.
+pub fn words(line: TextLine) -> String {
+    String::from_utf8_lossy(line.bytes).trim().to_ascii_uppercase().replace('\t', " ")
+}
+
 /// The unit that a line names, as the file writes it.
-fn unit(line: TextLine, words: &str) -> Option<RecordUnit> {
+pub fn unit(line: TextLine, words: &str) -> Option<RecordUnit> {
     const BEFORE: [&str; 5] = ["UNITS OF ", "UNITS: ", "ACCELERATION IN ", "VELOCITY IN ", "DISPLACEMENT IN "];
     let place = BEFORE.iter().find_map(|before| words.find(before).map(|place| place + before.len()))?;
     // Upper case has the same places: only letters of ASCII are changed.

@@ -1,5 +1,6 @@
 //! Values that follow one another along the lines of a file, as most data bases write records.
 
+use super::head::is_comment;
 use super::header::{ACCELERATIONS, Header};
 use super::number::{is_number_like, number, numbers};
 use base::text_file::{Fault, Text, TextLine};
@@ -16,7 +17,7 @@ pub fn read_rows(mut text: Text, header: Option<&Header>, step: f64) -> Result<V
     let mut rows = Rows { count: header.and_then(|header| header.count), step, points: Vec::new(), faults: Vec::new() };
     let mut has_begun = header.is_some();
     while let Some(line) = text.line() {
-        let is_comment = matches!(line.bytes.trim_ascii_start().first(), Some(b'#' | b'%' | b'!'));
+        let is_comment = is_comment(line);
         has_begun |= !is_comment && is_number_like(&String::from_utf8_lossy(line.bytes));
         if line.number <= last_line || is_comment || !has_begun {
             continue;

@@ -50,6 +50,11 @@ impl RecordUnit {
     }
 }
 
+/// True for a unit of a motion or of time.
+pub fn is_unit(name: &str) -> bool {
+    known(&name.to_ascii_uppercase()).is_some() || seconds_of(name).is_some()
+}
+
 /// The seconds of a unit of time, as the head of a column names it.
 pub fn seconds_of(name: &str) -> Option<f64> {
     let name = name.trim_end_matches('.').to_ascii_uppercase();
@@ -74,7 +79,7 @@ const TIMES: [(&[&str], f64); 6] = [
 ];
 
 fn known(name: &str) -> Option<(MotionQuantity, f64)> {
-    let name = &name.replace('²', "2");
+    let name = &name.replace('²', "2").replace(['⁻', '−'], "-");
     match name.as_str() {
         "G" | "G'S" | "GS" => return Some((MotionQuantity::Acceleration, G)),
         "MG" => return Some((MotionQuantity::Acceleration, 1e-3 * G)),
@@ -82,7 +87,9 @@ fn known(name: &str) -> Option<(MotionQuantity, f64)> {
         "GAL" | "GALS" => return Some((MotionQuantity::Acceleration, 0.01)),
         _ => {}
     }
-    let (length, per) = name.split_once('/').unwrap_or((name, ""));
+    // As m/s2 or as a product, m s-2.
+    let product = || name.split_once([' ', '·', '*', '.']).filter(|(_, per)| per.contains('-'));
+    let (length, per) = name.split_once('/').or_else(product).unwrap_or((name, ""));
     let length = match length {
         "M" => 1.0,
         "CM" => 0.01,
@@ -91,7 +98,7 @@ fn known(name: &str) -> Option<(MotionQuantity, f64)> {
         "FT" => 0.3048,
         _ => return None,
     };
-    let quantity = match per.replace("SEC", "S").replace(['*', '^'], "").as_str() {
+    let quantity = match per.replace("SEC", "S").replace(['*', '^', '-'], "").as_str() {
         "" => MotionQuantity::Displacement,
         "S" => MotionQuantity::Velocity,
         "S2" | "S/S" => MotionQuantity::Acceleration,
