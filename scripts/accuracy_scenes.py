@@ -44,15 +44,17 @@ def bodies(name: str) -> Motion:
     return Motion(f"decks/{scene.folder}/deck.toml", scene.interval, (), fine, check, "runge-kutta", schemes=schemes)
 
 
+DEFAULT = "wilson-theta"
+"""The scheme of decks that give none, as choosing.md advises where contact or yielding makes motion that is not smooth."""
+
 MOTIONS = {
     **{name: bodies(name) for name in ("R1", "R2", "R3")},
     "B1": beams("B1", (1, 2), ((1, 3), (1, 4), (2, 3), (2, 4)), (8, 4, 64)),
     "B2": beams("B2", (1, 2), ((1, 2), (1, 3), (1, 4), (2, 3)), (4, 4, 64)),
     "C1": beams("C1", (1, 2), ((1, 2), (1, 3), (1, 4), (2, 3)), (4, 4, 64)),
     "C2": beams("C2", (1, 2), ((1, 3), (1, 4), (2, 3), (2, 4)), (4, 4, 64)),
-    "C4": beams("C4", (1, 3), ((3, 3), (4, 3), (8, 3), (16, 3)), (32, 3, 16)),
+    "C4": beams("C4", (1, 3), ((3, 3), (4, 3), (8, 3), (16, 3)), (32, 3, 16))._replace(scheme=DEFAULT),
 }
-
 
 
 def patches(sizes: dict[str, tuple[int, int]], times: float) -> tuple[str, ...]:
@@ -104,7 +106,7 @@ BEAM = tuple(blow(*mesh) for mesh in (((4, 1), 3), ((8, 2), 3), ((16, 4), 3)))
 MOTIONS |= {
     "shell": shells("decks/tossed_cylinder/deck.toml", 0.02, CYLINDER, 8, ("analysis.end_time=1.0",)),
     "yielding shell": shells("decks/struck_panel/smooth/deck.toml", 2e-5, PANEL, 8, ("analysis.end_time=6e-4",)),
-    "contact": alone("decks/ball_on_free_plate/deck.toml", 1e-3, 64, (), PLATE, ("shells.plate.elements=12",)),
+    "contact": alone("decks/ball_on_free_plate/deck.toml", 1e-3, 64, (), PLATE, ("shells.plate.elements=12",))._replace(scheme=DEFAULT),
     "loop": alone("decks/andrews_squeezer/deck.toml", 6e-4, 256),
     "rotor": alone("decks/rotating_blade/deck.toml", 0.06, 128, ("analysis.end_time=3.0",), BLADE, ("beams.blade.elements=4", "beams.blade.order=4")),
     "X2": alone("decks/extreme/stiff_pendulum/deck.toml", 0.2066761, 512),
@@ -112,7 +114,7 @@ MOTIONS |= {
     "earthquake": alone("decks/isolated_building/deck.toml", 0.02, 64),
     "tumbling": alone("decks/heavy_top/deck.toml", 0.01, 256)._replace(scheme="runge-kutta", schemes=("wilson-theta", "esdirk3", "runge-kutta")),
     "snap-through": alone("decks/lees_frame/deck.toml", 0.1, 32, SNAPS, FRAME, frame((8, 2, 8), 4)),
-    "blow": alone("decks/clamped_beam_impulse/deck.toml", 1e-5, 32, (), BEAM, blow((32, 8), 3)),
+    "blow": alone("decks/clamped_beam_impulse/deck.toml", 1e-5, 32, (), BEAM, blow((32, 8), 3))._replace(scheme=DEFAULT),
 }
 
 
