@@ -24,7 +24,7 @@ STILL = 1e-12
 MULTIPLIERS = 1e-8
 # Columns that are empty for what does not have them: complex modes no participation, ends of elements no plastic strain, joints
 # of several directions no coordinate; None: any column of the table.
-MAY_BE_EMPTY = {"modes.csv": None, "sections.csv": {"plastic_strain"}, "joints.csv": {"coordinate", "rate", "effort"}}
+MAY_BE_EMPTY = {"modes.csv": None, "sections.csv": {"plastic_strain"}, "joints.csv": {"coordinate", "rate", "effort", "power"}}
 # Forces that only rounding makes, of moments over the size of the scene.
 ROUNDING = 1e-9
 # Energies of scenes at rest: rounding of velocities of 1e-13, squared.

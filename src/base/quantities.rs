@@ -48,6 +48,8 @@ pub enum Unit {
     Stress,
     /// A force times a length.
     Energy,
+    /// An energy per time.
+    Power,
     /// A number per time.
     Frequency,
     /// A mass.
@@ -83,6 +85,7 @@ impl fmt::Display for Unit {
             Unit::MomentPerLength => "force·length/length",
             Unit::Stress => "force/length²",
             Unit::Energy => "force·length",
+            Unit::Power => "force·length/time",
             Unit::Frequency => "1/time",
             Unit::Mass => "mass",
             Unit::Inertia => "mass·length²",
@@ -140,6 +143,7 @@ impl Unit {
         match self {
             Unit::Stress => (*stress).to_owned(),
             Unit::Energy => (*energy).to_owned(),
+            Unit::Power => format!("{energy}/{time}"),
             _ => {
                 let words = [("length", length), ("mass", mass), ("time", time), ("force", force)];
                 words.into_iter().fold(self.to_string(), |text, (word, symbol)| text.replace(word, symbol))
@@ -286,6 +290,13 @@ pub const JOINT_COORDINATE: [Column; 3] = [
     )
     .positive("along the axis, on `to`"),
 ];
+/// The power of a joint's drive or motor, in joints that have one.
+pub const JOINT_POWER: Column = Column::scalar(
+    "power",
+    "power of the drive (`motion`) or the motor (`effort`): its force or moment times `rate`; in statics rates are zero",
+    Unit::Power,
+)
+.positive("it gives energy to the model");
 /// All that a joint exerts on its first part.
 pub const JOINT_REACTION: [Column; 6] = wrench(
     "force of the joint on its first part (`from`): of all that it is, drive, motor, spring and friction included",

@@ -25,7 +25,7 @@ pub struct Actuator {
     /// The second end, at another place.
     #[schemars(required)]
     pub to: Maybe<Table<End>>,
-    /// Prescribes the change of its length since t = 0; joints.csv has the force.
+    /// Prescribes the change of its length since t = 0; joints.csv has the force and the power.
     pub motion: Maybe<Table<JointMotion>>,
     /// Instead of `motion`, a force that pushes the ends apart.
     pub effort: Maybe<Table<Effort>>,

@@ -31,7 +31,7 @@ pub struct Joint {
     /// is that of `to` from `from`, zero at t = 0. Default: "angle" of a screw, "distance" of a cylindrical joint. (revolute, prismatic,
     /// cylindrical, screw, planar, in-line; the same for all that follows)
     pub coordinate: Maybe<Coordinate>,
-    /// Prescribes the coordinate; joints.csv has the effort.
+    /// Prescribes the coordinate; joints.csv has the effort and the power.
     pub motion: Maybe<Table<JointMotion>>,
     /// Ties the coordinate to that of another joint, as gears, belts, racks and pinions do.
     pub gear: Maybe<Table<JointGear>>,

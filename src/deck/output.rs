@@ -35,7 +35,7 @@ pub struct Output {
     pub layers: Maybe<bool>,
     /// Write parts.csv: the elastic energy of each beam, bar and shell. Default: false.
     pub parts: Maybe<bool>,
-    /// Write joints.csv: coordinate, rate, effort and reactions of joints. Default: false.
+    /// Write joints.csv: coordinate, rate, effort, power of drives and reactions of joints. Default: false.
     pub joints: Maybe<bool>,
     /// Seconds of run time between two checkpoints for `--resume`, above 0. Default: none but the one that is written when a signal stops
     /// the run.

@@ -325,9 +325,12 @@ impl<'d> Expects<'_, 'd> {
             }
             Some(Place::Joint(joint)) => {
                 let mut columns = [&quantities::JOINT_REACTION[..], &JOINT_MAGNITUDES].concat();
-                let kind = self.scene.deck.joints.get(joint).and_then(|joint| joint.kind.as_ref());
-                if kind.is_some_and(|kind| !kind.make.coordinates.is_empty()) {
+                let of_deck = self.scene.deck.joints.get(joint);
+                if of_deck.and_then(|joint| joint.kind.as_ref()).is_some_and(|kind| !kind.make.coordinates.is_empty()) {
                     columns.extend(quantities::JOINT_COORDINATE);
+                }
+                if of_deck.is_some_and(|joint| joint.motion.is_some() || joint.effort.is_some()) {
+                    columns.push(quantities::JOINT_POWER);
                 }
                 Some((ExpectAt::Joint(joint), columns))
             }

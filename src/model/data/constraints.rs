@@ -134,6 +134,13 @@ pub struct JointDrive {
     pub is_free: bool,
 }
 
+impl JointCoordinate {
+    /// True with a prescribed motion or a motor: something gives power. Gears only pass it on.
+    pub fn is_driven(&self) -> bool {
+        self.effort.is_some() || self.drive.is_some_and(|drive| !drive.is_free)
+    }
+}
+
 impl JointDrive {
     /// The drive with the node's place, from the places of all nodes at t = 0.
     pub fn at(&self, x: &[Vec3]) -> Drive {

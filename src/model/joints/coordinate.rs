@@ -151,7 +151,7 @@ impl<'d> CoordinateKeys<'_, 'd> {
         }
         let deck = self.scene.deck;
         let name = self.joint.name.as_ref().map(|name| name.as_str());
-        let of_coordinate = |word: &str| ["coordinate", "rate", "effort"].contains(&word);
+        let of_coordinate = |word: &str| ["coordinate", "rate", "effort", "power"].contains(&word);
         deck.output.as_ref().is_some_and(|output| flag(&output.joints, false))
             || deck.expect.iter().any(|expect| {
                 expect.at.as_ref().map(|at| at.as_str()) == name

@@ -2,7 +2,7 @@
 
 use crate::extent::Rows;
 use crate::table::{Answers, TableKind, WriteRow};
-use base::quantities::{Column, JOINT_COORDINATE, JOINT_REACTION, names};
+use base::quantities::{Column, JOINT_COORDINATE, JOINT_POWER, JOINT_REACTION, names};
 use mechanics::state;
 use model::{ExpectAt, JOINT_MAGNITUDES, Joint, JointCoordinate, Model};
 use solve::{Frame, Wanted};
@@ -10,10 +10,16 @@ use std::io;
 
 pub static TABLE: TableKind = TableKind {
     file: "joints.csv",
-    about: "One row for each joint. Written with `[output] joints = true` if there are joints. Joints without a coordinate leave the first \
-            three numbers empty. Forces and moments act on the first part, like those of links. They include motors, springs, stops and \
+    about: "One row for each joint. Written with `[output] joints = true` if there are joints. Joints without a coordinate leave \
+            `coordinate`, `rate` and `effort` empty, joints without a drive or motor `power`. Forces and moments act on the first part, like those of links. They include motors, springs, stops and \
             friction, which reactions.csv excludes.",
-    columns: &[&[Column::key("joint", "name of the joint")], &JOINT_COORDINATE, &JOINT_REACTION, &JOINT_MAGNITUDES],
+    columns: &[
+        &[Column::key("joint", "name of the joint")],
+        &JOINT_COORDINATE,
+        &[JOINT_POWER],
+        &JOINT_REACTION,
+        &JOINT_MAGNITUDES,
+    ],
     wanted: |model| model.output.joints && of_deck(model).next().is_some(),
     needs: NEEDS,
     has_last: |_| true,
@@ -21,7 +27,8 @@ pub static TABLE: TableKind = TableKind {
     extent: |extent| {
         let [force, moment] = extent.components();
         let all = of_deck(extent.model).map(|joint| joint.name.as_str());
-        Rows::named(all, (5 + force + moment) * of_deck(extent.model).count())
+        let driven = of_deck(extent.model).filter(|joint| is_driven(joint)).count();
+        Rows::named(all, (5 + force + moment) * of_deck(extent.model).count() + driven)
     },
     rows: |_| Box::new(write),
     answers: Some(Answers { quantities, needs: NEEDS, value }),
@@ -35,9 +42,14 @@ fn of_deck(model: &Model) -> impl Iterator<Item = &Joint> {
     model.constraints.joints.iter().filter(|joint| joint.is_listed())
 }
 
+/// True for joints with a power.
+fn is_driven(joint: &Joint) -> bool {
+    joint.coordinate.as_ref().is_some_and(JointCoordinate::is_driven)
+}
+
 fn quantities(at: ExpectAt) -> Vec<&'static str> {
     match at {
-        ExpectAt::Joint(_) => names(&[&JOINT_COORDINATE, &JOINT_REACTION, &JOINT_MAGNITUDES]),
+        ExpectAt::Joint(_) => names(&[&JOINT_COORDINATE, &[JOINT_POWER], &JOINT_REACTION, &JOINT_MAGNITUDES]),
         _ => Vec::new(),
     }
 }
@@ -48,10 +60,10 @@ fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
 }
 
 /// The columns of one joint; `None` where the frame does not have it. Quantities that a joint lacks are not numbers.
-fn values(joint: usize, frame: &Frame) -> Option<[f64; 11]> {
+fn values(joint: usize, frame: &Frame) -> Option<[f64; 12]> {
     let (made, held) = (frame.model.constraints.joints.get(joint)?, frame.derived.joints.get(joint)?);
     let (mut f, mut m) = (held.f, held.m);
-    let [mut q, mut rate, mut effort] = [f64::NAN; 3];
+    let [mut q, mut rate, mut effort, mut power] = [f64::NAN; 4];
     if let Some(coordinate) = &made.coordinate {
         let start = made.ends.map(|node| state::Node::at_rest(frame.model.nodes[node].x));
         let (from, to) = match &frame.case {
@@ -66,13 +78,15 @@ fn values(joint: usize, frame: &Frame) -> Option<[f64; 11]> {
         }
         (q, rate) = link.map_or((along, speed), |link| (link.elongation, link.rate));
         // Forces besides those of the constraint equations, positive on the second end.
-        let acting = motor(coordinate, frame) - link.map_or(0.0, |link| link.force);
+        let motor = motor(coordinate, frame);
+        let acting = motor - link.map_or(0.0, |link| link.force);
         effort = held.drive + acting;
+        power = rate * (motor + if coordinate.drive.is_some_and(|drive| !drive.is_free) { held.drive } else { 0.0 });
         let [G, _] = coordinate.lock.gradient(from, to);
         f += acting * G.fixed_rows::<3>(0);
         m += acting * G.fixed_rows::<3>(3);
     }
-    Some([q, rate, effort, f.x, f.y, f.z, m.x, m.y, m.z, f.norm(), m.norm()])
+    Some([q, rate, effort, power, f.x, f.y, f.z, m.x, m.y, m.z, f.norm(), m.norm()])
 }
 
 /// The effort that the deck gives.
@@ -92,13 +106,14 @@ fn motor(coordinate: &JointCoordinate, frame: &Frame) -> f64 {
 fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     frame.model.constraints.joints.iter().enumerate().filter(|(_, joint)| joint.is_listed()).try_for_each(
         |(index, joint)| {
-            let values = values(index, frame).unwrap_or([f64::NAN; 11]);
+            let values = values(index, frame).unwrap_or([f64::NAN; 12]);
             let mut row = table.row(frame.step, frame.state.time).text(&joint.name);
-            // A joint without a coordinate has none to write, which is no fault of a number.
-            for value in &values[..3] {
-                row = if joint.coordinate.is_none() { row.text("") } else { row.number(*value) };
+            // A joint without a coordinate or a drive has none to write, which is no fault of a number.
+            let has = joint.coordinate.is_some();
+            for (value, has) in values.iter().zip([has, has, has, is_driven(joint)]) {
+                row = if has { row.number(*value) } else { row.text("") };
             }
-            row.numbers(&values[3..]).end()
+            row.numbers(&values[4..]).end()
         },
     )
 }
