@@ -509,31 +509,44 @@ pub const CRITICAL_SPEED: [Column; 4] = [
 ];
 
 /// The steady motion of a node at a frequency: amplitudes, then phases.
-pub const RESPONSE: [Column; 12] = {
-    const fn amplitude(name: &'static str, meaning: &'static str, unit: Unit) -> Column {
-        Column::scalar(name, meaning, unit).kind(meaning).in_axes(Axes::Global)
-    }
-    const fn phase(name: &'static str) -> Column {
-        let meaning = "phase φ of the same: the motion is amplitude × cos(ωt + φ) where excitations are cos(ωt + phase); from −180 to 180";
-        Column::scalar(name, meaning, Unit::Degree).in_axes(Axes::Global).positive("ahead of the excitation")
-    }
-    const MOVED: &str = "amplitude of the displacement about the state";
-    const TURNED: &str = "amplitude of the small rotation about the state";
+pub const RESPONSE: [Column; 12] = steady(
+    ["ux", "uy", "uz", "rx", "ry", "rz"],
+    ["ux_phase", "uy_phase", "uz_phase", "rx_phase", "ry_phase", "rz_phase"],
     [
-        amplitude("ux", MOVED, Unit::Length),
-        amplitude("uy", MOVED, Unit::Length),
-        amplitude("uz", MOVED, Unit::Length),
-        amplitude("rx", TURNED, Unit::Radian),
-        amplitude("ry", TURNED, Unit::Radian),
-        amplitude("rz", TURNED, Unit::Radian),
-        phase("ux_phase"),
-        phase("uy_phase"),
-        phase("uz_phase"),
-        phase("rx_phase"),
-        phase("ry_phase"),
-        phase("rz_phase"),
-    ]
-};
+        ("amplitude of the displacement about the state", Unit::Length),
+        ("amplitude of the small rotation about the state", Unit::Radian),
+    ],
+);
+/// The steady force and moment of a link on its first end at a frequency: amplitudes, then phases.
+pub const RESPONSE_LINK: [Column; 12] = steady(
+    ["fx", "fy", "fz", "mx", "my", "mz"],
+    ["fx_phase", "fy_phase", "fz_phase", "mx_phase", "my_phase", "mz_phase"],
+    [
+        ("amplitude of the force of the link on its first end, about the force in the state", Unit::Force),
+        ("amplitude of the moment of the link on its first end, about the moment in the state", Unit::Moment),
+    ],
+);
+
+/// Amplitudes of two vectors by their meaning, then the phases of their components.
+const fn steady(
+    names: [&'static str; 6],
+    phases: [&'static str; 6],
+    vectors: [(&'static str, Unit); 2],
+) -> [Column; 12] {
+    let meaning =
+        "phase φ of the same: it is amplitude × cos(ωt + φ) where excitations are cos(ωt + phase); from −180 to 180";
+    let mut columns = [Column::scalar("", meaning, Unit::Degree).in_axes(Axes::Global); 12];
+    let mut i = 0;
+    while i < 6 {
+        let (amplitude, unit) = vectors[i / 3];
+        columns[i] = Column::scalar(names[i], amplitude, unit).kind(amplitude).in_axes(Axes::Global);
+        columns[6 + i].name = phases[i];
+        columns[6 + i].kind = phases[i];
+        columns[6 + i].sign = "ahead of the excitation";
+        i += 1;
+    }
+    columns
+}
 /// The frequency of a response.
 pub const RESPONSE_FREQUENCY: Column = Column::scalar("frequency", "frequency of the excitation", Unit::Frequency);
 

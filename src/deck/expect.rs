@@ -33,7 +33,7 @@ pub struct Expect {
     /// With arc-length control, instead of `time`: where a displacement passes a value. A step ends there.
     pub when: Maybe<Table<DisplacementTarget>>,
     /// Instead of `time`, in a frequency response: the frequency, which is computed besides those of `[analysis]`. The quantity is then a
-    /// column of response.csv.
+    /// column of response.csv, or for a link of response_links.csv.
     pub frequency: Maybe<f64>,
     /// An extreme over the whole run, or over all frequencies, instead of `time`.
     pub peak: Maybe<Peak>,

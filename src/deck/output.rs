@@ -22,7 +22,7 @@ pub struct Output {
     pub fields: Maybe<Table<Fields>>,
     /// Write energy.csv: energies, dissipation, balance and momenta. Default: true.
     pub energy: Maybe<bool>,
-    /// Write links.csv: elongation, rate and force of links. Default: false.
+    /// Write links.csv: elongation, rate and force of links; of a frequency response response_links.csv besides. Default: false.
     pub links: Maybe<bool>,
     /// Write contacts.csv, gaps and forces of contacts, or contact_pairs.csv, forces between parts. `true` is { by = "contacts" }. Default:
     /// false.

@@ -63,7 +63,7 @@ use super::procedure::control::{control, path_iteration};
 use super::procedure::linear::{check_linear, make_elastic};
 use super::procedure::mass_scaling::check_mass_scaling;
 use super::procedure::modes::{check_modal, hold_at_start, refuse_power_dampers};
-use super::procedure::response::{add_expected, check_harmonic};
+use super::procedure::response::{add_expected, check_harmonic, note_tables_of_state};
 use super::procedure::scaled_masses::masses as element_masses;
 use super::procedure::stops::{self, NamedActors};
 use super::procedure::study::study;
@@ -516,6 +516,7 @@ fn check(
     check_harmonic(deck, scene.stage.map_or(deck, |stage| stage.sequence.whole), report);
     if analysis.has_modes() {
         check_modal(deck, report);
+        note_tables_of_state(deck, report);
         if analysis.damps_modes() {
             refuse_power_dampers(deck, report);
         }

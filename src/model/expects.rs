@@ -1,8 +1,8 @@
 //! `[[expect]]`: values that a run must reach.
 
 use super::data::{
-    Beam, DIRECTIONS, Expect, ExpectAt, JOINT_MAGNITUDES, LoadCases, ModeExtent, OverFrequencies, Part, PartType,
-    Tolerance, When, quantities_of,
+    Beam, DIRECTIONS, Expect, ExpectAt, JOINT_MAGNITUDES, LoadCases, ModeExtent, OverFrequencies, Part, PartKind,
+    PartType, ResponseOf, Tolerance, When, quantities_of,
 };
 use super::places::nodes::Topology;
 use super::places::place::Place;
@@ -243,21 +243,26 @@ impl<'d> Expects<'_, 'd> {
         self.report.reject_unused("a frequency response", &keys!(expect; time, when));
         let over = self.over_frequencies(owner, expect);
         let name = self.report.require(owner, "at", &expect.at);
-        let node = name.and_then(|name| match self.scene.place_or_node(name) {
-            Some(Place::Point(node)) => Some(node),
-            Some(Place::Body(body)) => Some(self.scene.names.body_node(body)),
+        let of = name.and_then(|name| match self.scene.place_or_node(name) {
+            Some(Place::Point(node)) => Some(ResponseOf::Node(node)),
+            Some(Place::Body(body)) => Some(ResponseOf::Node(self.scene.names.body_node(body))),
+            Some(Place::Part(part)) if part.kind == PartKind::Link => Some(ResponseOf::Link(part.index)),
             Some(place) => {
                 let message = format!("`{}` is {}, without a response", name.value, place.kind());
-                self.report.error_with(&name.span, message, "name a point or a body")
+                self.report.error_with(&name.span, message, "name a point, a body or a link")
             }
             None => {
                 let known = || self.scene.names.known(|place| matches!(place, Place::Point(_) | Place::Body(_)));
-                self.scene.names.unknown("point or body", name, known, self.report)
+                self.scene.names.unknown("point, body or link", name, known, self.report)
             }
         });
         let quantity = self.report.require(owner, "quantity", &expect.quantity);
-        let column = quantity.zip(name).and_then(|(quantity, name)| self.column(&quantities::RESPONSE, quantity, name));
-        let ((value, tolerance), over, node, quantity) = (self.judged(owner, expect)?, over?, node?, column?);
+        let columns = match of {
+            Some(ResponseOf::Link(_)) => &quantities::RESPONSE_LINK,
+            _ => &quantities::RESPONSE,
+        };
+        let column = quantity.zip(name).and_then(|(quantity, name)| self.column(columns, quantity, name));
+        let ((value, tolerance), over, of, quantity) = (self.judged(owner, expect)?, over?, of?, column?);
         let moment = match over {
             OverFrequencies::At(frequency) => format!("at frequency {frequency}"),
             OverFrequencies::Max => "at its maximum over frequencies".to_owned(),
@@ -266,7 +271,7 @@ impl<'d> Expects<'_, 'd> {
         };
         Some(Expect {
             index: 0,
-            at: ExpectAt::Response(node, over),
+            at: ExpectAt::Response(of, over),
             quantity: quantity.to_owned(),
             when: When::Abs,
             value,

@@ -4,6 +4,7 @@ use super::TABLES;
 use super::curve::{REACTION, REACTION_COMPONENTS, REACTIONS, reaction_direction};
 use super::table::{BETWEEN_SETS, CASE, SET, STAGE, TableKind, names_subject};
 use super::table_reader::{TableReader, fields, number, text};
+use super::tables::holds_response;
 use base::snapshot::keep;
 use model::ENVELOPE_ENDS;
 use serde::{Deserialize, Serialize};
@@ -143,9 +144,8 @@ fn asked_of<'w>(kind: &TableKind, wanted: &'w [Collected]) -> impl Iterator<Item
     let about_all = !kind.columns().any(|column| column.is_key());
     let values: Vec<&str> = kind.columns().filter(|column| !column.is_key()).map(|column| column.name).collect();
     let (file, every_step) = (kind.file, kind.every_step);
-    // A response is asked for its own table, whose columns have the names of others.
-    let order =
-        if file == "response.csv" { 0 } else { 1 + TABLES.iter().take_while(|table| table.file != file).count() };
+    // A response is asked for its own tables, whose columns have the names of others.
+    let order = if holds_response(kind) { 0 } else { 1 + TABLES.iter().take_while(|table| table.file != file).count() };
     wanted.iter().enumerate().flat_map(move |(place, one)| {
         let is_energy = (one.at == "energy") == (about_all && file == "energy.csv");
         let holds = !every_step && values.contains(&one.quantity.as_str()) && is_energy;

@@ -4,14 +4,14 @@ use super::source::{CRATES, lines_below};
 
 /// Lines of the sources below src by crate, `program` for what lies beside them.
 const BUDGET: [(&str, usize); 11] = [
-    ("base", 7066),
+    ("base", 7079),
     ("linear", 4265),
     ("mechanics", 36_969),
     ("deck", 5516),
     ("import", 11_565),
-    ("model", 30_016),
-    ("solve", 37_180),
-    ("results", 12_531),
+    ("model", 30_042),
+    ("solve", 37_303),
+    ("results", 12_587),
     ("study", 4271),
     ("sweep", 1595),
     ("program", 7177),

@@ -37,8 +37,8 @@ pub enum ExpectAt {
     Energy,
     /// Columns of modes.csv, of the mode at this place of its list.
     Mode(usize),
-    /// Columns of response.csv, of a node at one frequency or the extreme over all.
-    Response(usize, OverFrequencies),
+    /// Columns of response.csv or response_links.csv, at one frequency or the extreme over all.
+    Response(ResponseOf, OverFrequencies),
     /// Columns of the table of links or of contacts, and the magnitude of the force of a contact.
     Part(PartIndex),
     /// Columns of drifts.csv, by the place in [`super::Output::drifts`].
@@ -56,6 +56,15 @@ pub enum ExpectAt {
     Sections(usize),
     /// The largest plastic strain of elements, from one to before another, counted through all beams, then all bars.
     Elements(usize, usize),
+}
+
+/// The object whose steady response is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ResponseOf {
+    /// A node, or a body by its node.
+    Node(usize),
+    /// A link, by its place among all links.
+    Link(usize),
 }
 
 /// The frequency for reading a response.

@@ -43,7 +43,7 @@ pub use deck::part_table::MassKind;
 pub use deck::parts::{PartIndex, PartKind};
 pub use deck::supports::History;
 pub use displacement_target::DisplacementTarget;
-pub use expect::{Expect, ExpectAt, OverFrequencies, Tolerance, When};
+pub use expect::{Expect, ExpectAt, OverFrequencies, ResponseOf, Tolerance, When};
 pub use initial_motion::{GivenVelocity, InitialMotion, PlaceFactor};
 pub use integrals::MassIntegrals;
 pub use link::{Link, LinkKind, set_coordinate_equations};

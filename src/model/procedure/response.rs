@@ -115,6 +115,17 @@ fn in_range<'d>(range: &'d FrequencyRange, report: &mut Report<'d>) -> (Vec<f64>
     (spacing.between(from, to, steps as usize), around)
 }
 
+/// Notes a table of reactions in a frequency response: it has the state at rest.
+pub fn note_tables_of_state(deck: &Deck, report: &mut Report) {
+    let is_response =
+        |analysis: &Analysis| analysis.kind.as_ref().is_some_and(|at| at.value == AnalysisKind::FrequencyResponse);
+    let output = deck.output.as_ref().filter(|_| deck.analysis.as_ref().is_some_and(|at| is_response(at)));
+    let Some(at) = output.and_then(|output| output.reactions.as_ref()).filter(|at| at.value) else { return };
+    let message = "reactions.csv has the reactions in the state at rest, not those of the response";
+    let hint = "model a bearing as a stiff [[links]] to the ground, whose force over the frequencies `links = true` writes to response_links.csv";
+    report.note(&at.span, message, hint);
+}
+
 /// Checks that harmonic amplitudes are used in a frequency response, and that a frequency response has an excitation.
 pub fn check_harmonic(deck: &Deck, whole: &Deck, report: &mut Report) {
     let stages_respond = has_response(whole);

@@ -15,6 +15,7 @@ pub use select::{ColumnTolerance, Selector, size};
 use super::disk::at;
 use super::table::SET;
 use super::table_reader::{TableReader, fields, number};
+use super::tables::{holds_response, of_file};
 use base::text_file::read_regular;
 use cursor::{Cursor, Pick};
 use std::collections::BTreeSet;
@@ -54,8 +55,7 @@ pub const TOLERANCE: f64 = 1e-6;
 /// The table of costs, which may differ between runs with equal results.
 const COST: &str = "steps.csv";
 
-/// The table of frequency responses, whose rows have a frequency besides the time of the state.
-const RESPONSE: &str = "response.csv";
+/// The column that pairs the rows of frequency responses.
 const FREQUENCY: &str = "frequency";
 
 /// A column of both sides, compared.
@@ -285,7 +285,9 @@ fn table(
 /// The number that pairs the frames of a table.
 fn matched_by(name: &str, shared: &[String], by_step: bool) -> Matched {
     match () {
-        () if name == RESPONSE && shared.iter().any(|column| column == FREQUENCY) => Matched::Frequency,
+        () if of_file(name).is_some_and(holds_response) && shared.iter().any(|column| column == FREQUENCY) => {
+            Matched::Frequency
+        }
         () if by_step && shared.iter().any(|column| column == "step") => Matched::Step,
         () => Matched::Time,
     }

@@ -20,7 +20,8 @@ const TIMES: usize = 1_500;
 const FEW_TIMES: usize = 200;
 
 /// Tables that do not go over time, and the column that they go over.
-const OVER: [(&str, &str); 2] = [("response.csv", "frequency"), ("campbell.csv", "speed")];
+const OVER: [(&str, &str); 3] =
+    [("response.csv", "frequency"), ("response_links.csv", "frequency"), ("campbell.csv", "speed")];
 
 /// A table over time.
 pub struct History {

@@ -18,6 +18,7 @@ mod nodes;
 mod parts;
 mod reactions;
 mod response;
+mod response_links;
 mod sections;
 mod shell_order;
 mod shells;
@@ -25,6 +26,7 @@ mod steps;
 mod ties;
 
 use super::table::TableKind;
+use base::quantities::RESPONSE_FREQUENCY;
 
 /// All tables, in their order for readers.
 pub static TABLES: &[&TableKind] = &[
@@ -47,6 +49,7 @@ pub static TABLES: &[&TableKind] = &[
     &mode_parts::TABLE,
     &mode_shapes::TABLE,
     &response::TABLE,
+    &response_links::TABLE,
     &campbell::TABLE,
     &critical_speeds::TABLE,
     &steps::TABLE,
@@ -57,9 +60,10 @@ pub fn of_file(name: &str) -> Option<&'static TableKind> {
     TABLES.iter().copied().find(|table| table.file == name)
 }
 
-/// True for the table whose rows come in parts, see [`solve::Observer::on_response`].
+/// True for the tables of a frequency response. Their rows come in parts, see [`solve::Observer::on_response`], and have a frequency besides
+/// the time of the state.
 pub fn holds_response(table: &TableKind) -> bool {
-    std::ptr::eq(table, &response::TABLE)
+    table.columns().any(|column| column == RESPONSE_FREQUENCY)
 }
 
 #[cfg(test)]

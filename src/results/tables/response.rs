@@ -3,7 +3,7 @@
 use crate::extent::Rows;
 use crate::table::{Answers, TableKind, WriteRow};
 use base::quantities::{Column, RESPONSE, RESPONSE_FREQUENCY, names};
-use model::{ExpectAt, OverFrequencies};
+use model::{ExpectAt, OverFrequencies, ResponseOf};
 use solve::modes::{Response, ResponseRow};
 use solve::{Frame, Wanted};
 use std::io;
@@ -25,15 +25,16 @@ pub static TABLE: TableKind = TableKind {
 
 fn quantities(at: ExpectAt) -> Vec<&'static str> {
     match at {
-        ExpectAt::Response(..) => names(&[&RESPONSE]),
+        ExpectAt::Response(ResponseOf::Node(_), _) => names(&[&RESPONSE]),
         _ => Vec::new(),
     }
 }
 
-fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
-    let ExpectAt::Response(node, over) = at else { return None };
+/// The value of a column of a response at its frequency, or its extreme.
+pub(super) fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
+    let ExpectAt::Response(of, over) = at else { return None };
     let response = frame.modes?.response.as_ref()?;
-    let of = |row: &ResponseRow| response.amplitudes(row, node).map(|values| values[index]);
+    let of = |row: &ResponseRow| response.amplitudes(row, of).map(|values| values[index]);
     let all = || response.rows.iter().filter_map(of);
     // Where nothing limits the motion there is no largest.
     let unlimited = all().any(|value| !value.is_finite());
@@ -54,19 +55,20 @@ fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     let model = frame.model;
     let nodes = model.output.nodes.iter().map(|&node| (model.nodes[node].label.as_str(), node));
     let bodies = model.bodies.iter().map(|body| (body.name.as_str(), body.node));
-    let named: Vec<(&str, usize)> = nodes.chain(bodies).collect();
+    let named: Vec<(&str, ResponseOf)> =
+        nodes.chain(bodies).map(|(name, node)| (name, ResponseOf::Node(node))).collect();
     response.rows[frame.rows.clone()].iter().try_for_each(|row| write_row(table, frame, (response, row), &named))
 }
 
 /// The rows of a frequency.
-fn write_row(
+pub(super) fn write_row(
     table: &mut dyn WriteRow,
     frame: &Frame,
     (response, row): (&Response, &ResponseRow),
-    named: &[(&str, usize)],
+    named: &[(&str, ResponseOf)],
 ) -> io::Result<()> {
-    for &(name, node) in named {
-        let Some(values) = response.amplitudes(row, node) else { continue };
+    for &(name, of) in named {
+        let Some(values) = response.amplitudes(row, of) else { continue };
         let mut out = table.row(frame.step, frame.state.time).number(row.frequency).text(name);
         for value in values {
             out = if value.is_finite() { out.number(value) } else { out.text("") };

@@ -12,6 +12,7 @@ mod fault;
 mod gyroscopic;
 mod inertia_shapes;
 mod linearized;
+mod link_forces;
 mod matrices;
 mod modal;
 mod mode;

@@ -1,9 +1,11 @@
-//! The steady motion of chosen nodes at each frequency.
+//! The steady motion of chosen nodes, and the forces of links, at each frequency.
 
+use super::linearized::Linearized;
+use super::link_forces::LinkForce;
 use base::math::Vec6;
 use base::snapshot::keep;
 use linear::eigen::Complex;
-use model::{ExpectAt, Model};
+use model::{ExpectAt, ResponseOf};
 
 /// The response of some nodes.
 #[derive(Debug, Clone, Default)]
@@ -12,6 +14,8 @@ pub struct Response {
     pub nodes: Vec<usize>,
     /// The motion at each frequency, ascending.
     pub rows: Vec<ResponseRow>,
+    /// The matrices of the forces of links, in deck order; empty if no table or expected value needs them.
+    pub(super) links: Vec<LinkForce>,
 }
 
 /// The motion at a frequency.
@@ -22,9 +26,11 @@ pub struct ResponseRow {
     /// Small motions (u, θ) in the order of [`Response::nodes`], real and imaginary parts: those at ωt = 0 and at −π/2. Not finite
     /// where the undamped scene has no steady motion.
     pub motions: Vec<[Complex; 6]>,
+    /// Force and moment of links on their first ends, likewise.
+    pub links: Vec<[Complex; 6]>,
 }
 
-keep!(ResponseRow: Default { frequency, motions });
+keep!(ResponseRow: Default { frequency, motions, links });
 
 /// Response found so far, for a search that was interrupted.
 #[derive(Debug, Default)]
@@ -53,40 +59,70 @@ impl ResponseRow {
         let sizes = self.motions.iter().flatten().map(|[real, imaginary]| real.hypot(*imaginary));
         sizes.fold(0.0, f64::max)
     }
+
+    /// Marks a resonance without a limit.
+    pub(super) fn set_unlimited(&mut self) {
+        self.motions.iter_mut().chain(&mut self.links).for_each(|values| *values = [[f64::INFINITY; 2]; 6]);
+    }
 }
 
 impl Response {
-    /// The motion so far of the nodes that tables or `[[expect]]` name.
-    pub(super) fn of(model: &Model, rows: Vec<ResponseRow>) -> Response {
-        let expected = model.expects.iter().filter_map(|expect| match expect.at {
-            ExpectAt::Response(node, _) => Some(node),
-            _ => None,
+    /// The response so far of the nodes and links that tables or `[[expect]]` name.
+    pub(super) fn of(at: &Linearized, rows: Vec<ResponseRow>) -> Response {
+        let model = at.model;
+        let expected = || {
+            model.expects.iter().filter_map(|expect| match expect.at {
+                ExpectAt::Response(of, _) => Some(of),
+                _ => None,
+            })
+        };
+        let has_links = model.output.links || expected().any(|of| matches!(of, ResponseOf::Link(_)));
+        let links = if has_links { LinkForce::all(at) } else { Vec::new() };
+        let expected = expected().filter_map(|of| match of {
+            ResponseOf::Node(node) => Some(node),
+            ResponseOf::Link(_) => None,
         });
         let bodies = model.bodies.iter().map(|body| body.node);
-        let mut nodes: Vec<usize> = model.output.nodes.iter().copied().chain(bodies).chain(expected).collect();
+        let shown = model.output.nodes.iter().copied().chain(bodies).chain(expected);
+        let mut nodes: Vec<usize> = shown.chain(links.iter().flat_map(LinkForce::nodes)).collect();
         nodes.sort_unstable();
         nodes.dedup();
-        Response { nodes, rows }
+        Response { nodes, rows, links }
+    }
+
+    /// Forms the matrices of links anew, where those of bearings have changed with the speed.
+    pub(super) fn renew_links(&mut self, at: &Linearized) {
+        if !self.links.is_empty() {
+            self.links = LinkForce::all(at);
+        }
     }
 
     /// Keeps the motions of the nodes wanted from those of all nodes, real and imaginary parts.
     pub(super) fn keep(&mut self, frequency: f64, [real, imaginary]: [&[Vec6]; 2]) {
         let motion = |&node: &usize| std::array::from_fn(|dof| [real[node][dof], imaginary[node][dof]]);
-        self.rows.push(ResponseRow { frequency, motions: self.nodes.iter().map(motion).collect() });
+        self.push(frequency, self.nodes.iter().map(motion).collect());
     }
 
     /// Keeps these motions, in the order of the nodes wanted.
     pub(super) fn add(&mut self, frequency: f64, motions: Vec<[nalgebra::Complex<f64>; 6]>) {
-        let motions = motions.into_iter().map(|motion| motion.map(|x| [x.re, x.im])).collect();
-        self.rows.push(ResponseRow { frequency, motions });
+        self.push(frequency, motions.into_iter().map(|motion| motion.map(|x| [x.re, x.im])).collect());
     }
 
-    /// Amplitude and phase in degrees of each component of a node at a row; `None` where the node is not among those wanted.
+    fn push(&mut self, frequency: f64, motions: Vec<[Complex; 6]>) {
+        let of = |node: usize| self.nodes.binary_search(&node).map_or([[0.0; 2]; 6], |place| motions[place]);
+        let links = self.links.iter().map(|link| link.at(frequency, of)).collect();
+        self.rows.push(ResponseRow { frequency, motions, links });
+    }
+
+    /// Amplitude and phase in degrees of each component of a motion or of a force at a row; `None` for a node or link that was not wanted.
     #[must_use]
-    pub fn amplitudes(&self, row: &ResponseRow, node: usize) -> Option<[f64; 12]> {
-        let motion = &row.motions[self.nodes.binary_search(&node).ok()?];
+    pub fn amplitudes(&self, row: &ResponseRow, of: ResponseOf) -> Option<[f64; 12]> {
+        let components = match of {
+            ResponseOf::Node(node) => &row.motions[self.nodes.binary_search(&node).ok()?],
+            ResponseOf::Link(link) => row.links.get(link)?,
+        };
         let mut values = [0.0; 12];
-        for (dof, [real, imaginary]) in motion.iter().enumerate() {
+        for (dof, [real, imaginary]) in components.iter().enumerate() {
             values[dof] = real.hypot(*imaginary);
             // The angle of zero is zero, whatever its sign.
             values[6 + dof] = match values[dof] {

@@ -1,6 +1,7 @@
 //! The results of elements for output: forces of links, stress resultants of beams and shells.
 
 use super::equations::System;
+use super::group::Group;
 use super::loads::Loading;
 use super::parts::beam_sections::{self, EndForces, SectionPoint};
 use super::parts::beams;
@@ -22,6 +23,11 @@ pub fn axial_forces(system: &System, now: &Configuration, out: &mut Vec<f64>) {
 /// Writes the states of all links into `out`, in deck order.
 pub fn link_states(system: &System, now: &Configuration, out: &mut Vec<LinkState>) {
     links::link_states(&system.links, &system.groups, now, out);
+}
+
+/// The group of each link of the deck and its place there, in deck order.
+pub fn links_of_deck(system: &System) -> Vec<(&Group, usize)> {
+    links::of_deck(&system.links, &system.groups)
 }
 
 /// The bushing, by its place among the links, whose ends have turned over against each other between `start` and `end`.

@@ -66,7 +66,7 @@ pub fn response(
     let mut stiffness = DynamicStiffness::new(&at.plan.structure)?;
     stiffness.set(&matrices, &joints);
     let mut direct = Direct { pencil, excitation, stiffness, joints, speed, so_far: &mut *progress.so_far, natural };
-    let mut response = Response::of(at.model, std::mem::take(&mut direct.so_far.rows));
+    let mut response = Response::of(at, std::mem::take(&mut direct.so_far.rows));
     if let Err(stopped) = direct.find(at, &all, &mut *progress.pauses, &mut response) {
         direct.so_far.rows = response.rows;
         return Err(stopped);
@@ -154,6 +154,9 @@ impl Direct<'_> {
                 found = agree([&before, &after]).then_some(before);
             }
         }
+        if self.speed.is_some() {
+            response.renew_links(&self.pencil.at);
+        }
         match found {
             Some([real, imaginary]) => response.keep(frequency, [&real, &imaginary]),
             None => {
@@ -186,12 +189,11 @@ impl Direct<'_> {
             }
             self.pencil.at.check_stop()?;
             let Some([real, imaginary]) = self.motions(frequency * (1.0 + BESIDE_RESONANCE[0]))? else { continue };
-            let mut beside = Response { nodes: response.nodes.clone(), rows: Vec::new() };
+            let mut beside = Response { nodes: response.nodes.clone(), ..Response::default() };
             beside.keep(frequency, [&real, &imaginary]);
             if beside.rows[0].largest() < BESIDE_RESONANCE[1] * motion {
                 self.note(frequency);
-                let infinite = [[f64::INFINITY; 2]; 6];
-                response.rows[place].motions.fill(infinite);
+                response.rows[place].set_unlimited();
             }
         }
         Ok(())

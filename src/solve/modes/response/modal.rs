@@ -70,7 +70,7 @@ pub fn response(
     };
     let mut space = Space::new((&pairs, &rest), &matrices.C, asked.damping_ratio, shift);
     let parts = space.parts(&mut pencil, &excitation, &matrices);
-    let mut response = Response::of(at.model, std::mem::take(&mut progress.so_far.rows));
+    let mut response = Response::of(at, std::mem::take(&mut progress.so_far.rows));
     let motion = Motion::new(&pencil, &space, &parts, &excitation, &response.nodes);
     let known = response.rows.len().min(all.len());
     for &frequency in &all[known..] {

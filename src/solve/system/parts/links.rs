@@ -255,6 +255,19 @@ impl Slots {
     }
 }
 
+/// The group and the element in it of each link of the deck, in deck order; `groups` are those of the whole system.
+pub fn of_deck<'g>(links: &[LinkElement], groups: &'g [Group]) -> Vec<(&'g Group, usize)> {
+    let shared = groups.iter().filter(|group| is_shared(group));
+    let all = shared.flat_map(|group| (0..group.block.len()).map(move |e| (group, e)));
+    // The blocks follow each other by kinds.
+    let mut order: Vec<usize> = (0..links.len()).collect();
+    order.sort_by_key(|&link| links[link].kind());
+    let mut places: Vec<_> = order.into_iter().zip(all).collect();
+    places.sort_by_key(|(link, _)| *link);
+    places.retain(|(link, _)| !matches!(links[*link], LinkElement::Joint(_)));
+    places.into_iter().map(|(_, place)| place).collect()
+}
+
 /// The places of the history variables of a link among the history of all groups.
 pub fn history_of(links: &[LinkElement], groups: &[Group], link: usize) -> std::ops::Range<usize> {
     let first = groups.iter().find(|group| is_shared(group)).map_or(0, |group| group.history.start);
