@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::{Maybe, Names, Table, Vector};
+use super::words::{Maybe, Names, Numbers, Table, Vector};
 use base::diagnostic::At;
 
 /// Acceleration fields.
@@ -45,11 +45,27 @@ pub struct Damping {
     /// Rayleigh's beta in C = alpha M + beta K, a time, 0 or more. It acts on strain rates of beams, bars and shells, and on springs of
     /// links and joints, not on stops, friction and contacts. Default: 0. Alias: `beta`.
     pub stiffness_factor: Maybe<f64>,
+    /// Instead of both, a part of critical damping at two frequencies. It determines alpha and beta.
+    pub rayleigh: Maybe<Table<RayleighDamping>>,
     /// Damping of the first modes, besides, in dynamic analyses by implicit schemes. They are the modes of the drawn state without loads.
     pub modal: Maybe<Table<ModalDamping>>,
     /// Dampers from nodes to the ground.
     #[serde(default)]
     pub nodal: Vec<At<Table<NodalDamping>>>,
+}
+
+/// Rayleigh damping by the part of critical damping at two frequencies: alpha / (2 w) + beta w / 2 at w = 2 pi f. It is less between them
+/// and more outside. `check` shows alpha and beta.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RayleighDamping {
+    /// Part of critical damping at both frequencies, 0 to below 1.
+    pub ratio: Maybe<f64>,
+    /// Instead, one at each frequency.
+    pub ratios: Maybe<Numbers<2>>,
+    /// Two frequencies in ascending order, cycles per unit of time, such as those of two modes.
+    #[schemars(required)]
+    pub frequencies: Maybe<Numbers<2>>,
 }
 
 /// Damping by modes: C = Σ 2 ζ ω M φ φᵀ M. Motions across these modes are not damped by it.

@@ -9,9 +9,12 @@ use super::stages::CurrentStage;
 use super::values::{keys, vec3_or_zero};
 use base::diagnostic::{At, Span};
 use base::math::Vec3;
+use base::names::short;
 use deck::Deck;
+use deck::environment::RayleighDamping;
 use deck::words::Table;
 use mechanics::amplitude::Amplitude;
+use std::f64::consts::TAU;
 
 /// Accelerations of all masses: gravity with the index of its amplitude, and the accelerations of the ground.
 #[derive(Default)]
@@ -72,8 +75,16 @@ pub(super) fn environment<'d>(
 /// Reads `[damping]`: Rayleigh factors, and dampers on nodes.
 pub(super) fn damping<'d>(scene: &Scene<'d>, topology: &Topology, report: &mut Report<'d>) -> Damping {
     let Some(damping) = &scene.deck.damping else { return Damping::default() };
-    let mass_factor = report.not_negative("mass_factor", &damping.mass_factor, 0.0);
-    let stiffness_factor = report.not_negative("stiffness_factor", &damping.stiffness_factor, 0.0);
+    let [mass_factor, stiffness_factor] = match &damping.rayleigh {
+        Some(table) => {
+            report.reject_unused("damping by `rayleigh`", &keys!(damping; mass_factor, stiffness_factor));
+            rayleigh(table, report).unwrap_or_default()
+        }
+        None => [
+            report.not_negative("mass_factor", &damping.mass_factor, 0.0),
+            report.not_negative("stiffness_factor", &damping.stiffness_factor, 0.0),
+        ],
+    };
     let mut nodal = Vec::new();
     for entry in &damping.nodal {
         let owner = Owner::new("an entry of `nodal`", &entry.span);
@@ -90,6 +101,52 @@ pub(super) fn damping<'d>(scene: &Scene<'d>, topology: &Topology, report: &mut R
     Damping { mass_factor, stiffness_factor, modal, nodal, ..Damping::default() }
 }
 
+/// α and β from ζ at two frequencies: ζ = α/(2 ω) + β ω/2 at both.
+fn rayleigh<'d>(table: &'d At<Table<RayleighDamping>>, report: &mut Report<'d>) -> Option<[f64; 2]> {
+    let owner = Owner::new("`rayleigh`", &table.span);
+    let (ratios, place) = match &table.ratios {
+        Some(ratios) => {
+            report.reject_unused("a list of `ratios`", &keys!(table; ratio));
+            (ratios.0, &ratios.span)
+        }
+        None => {
+            let ratio = report.require(&owner, "ratio", &table.ratio)?;
+            ([ratio.value; 2], &ratio.span)
+        }
+    };
+    let frequencies = report.require(&owner, "frequencies", &table.frequencies)?;
+    let [low, high] = frequencies.0;
+    if !(low > 0.0 && high > low && high.is_finite()) {
+        let hint = "give those of two modes, the lower one first, in cycles per unit of time";
+        return report.error_with(&frequencies.span, "`rayleigh` needs two positive, ascending `frequencies`", hint);
+    }
+    if ratios.iter().any(|ratio| !is_damping_ratio(*ratio)) {
+        out_of_range(report, place);
+        return None;
+    }
+    let [[first, second], [one, other]] = [[TAU * low, TAU * high], ratios];
+    let factor = 2.0 / (second * second - first * first);
+    let alpha = factor * first * second * (one * second - other * first);
+    let beta = factor * (other * second - one * first);
+    if alpha < 0.0 || beta < 0.0 {
+        let message = format!("these ratios need a negative {}", if alpha < 0.0 { "alpha" } else { "beta" });
+        let (least, most) = (short(one * first / second), short(one * second / first));
+        let hint = format!("with {} at the lower frequency the other ratio is {least} to {most}", short(one));
+        return report.error_with(place, message, hint);
+    }
+    Some([alpha, beta])
+}
+
+/// True for a part of critical damping that vibrations may have.
+fn is_damping_ratio(ratio: f64) -> bool {
+    (0.0..1.0).contains(&ratio)
+}
+
+fn out_of_range(report: &mut Report, place: &Span) {
+    let hint = "a part of critical damping, such as 0.02";
+    report.error_with::<()>(place, "a damping ratio must be 0 or more, and below 1", hint);
+}
+
 /// ζ of each damped mode.
 fn modal<'d>(
     scene: &Scene<'d>,
@@ -98,11 +155,6 @@ fn modal<'d>(
 ) -> Vec<f64> {
     /// So many modes take seconds to find, and as long as the other forces in each step.
     const MOST: usize = 1000;
-    let is_sound = |ratio: f64| (0.0..1.0).contains(&ratio);
-    let out_of_range = |report: &mut Report, span: &Span| {
-        let hint = "a part of critical damping, such as 0.02";
-        report.error_with::<()>(span, "a modal damping ratio must be 0 or more, and below 1", hint);
-    };
     if scene.analysis.damps_modes() || scene.analysis.has_modes() && scene.stage.is_none() {
         let hint = "responses and damped modes take alpha, beta and dampers";
         report.error_with::<()>(place, "`modal` damping acts in dynamic analyses", hint);
@@ -112,7 +164,7 @@ fn modal<'d>(
         if ratios.is_empty() {
             report.error_with::<()>(&ratios.span, "`ratios` is empty", "give one for each mode, such as [0.02, 0.03]");
         }
-        for ratio in ratios.iter().filter(|ratio| !is_sound(ratio.value)) {
+        for ratio in ratios.iter().filter(|ratio| !is_damping_ratio(ratio.value)) {
             out_of_range(report, &ratio.span);
         }
         return ratios.iter().map(|ratio| ratio.value).collect();
@@ -127,7 +179,7 @@ fn modal<'d>(
         modes = MOST;
     }
     match ratio {
-        Some(ratio) if !is_sound(ratio.value) => {
+        Some(ratio) if !is_damping_ratio(ratio.value) => {
             out_of_range(report, &ratio.span);
             Vec::new()
         }

@@ -2,6 +2,7 @@
 
 use crate::support::{node, read_deck, run_to_the_end, warnings_of};
 use rdsolve::solve::Frame;
+use std::f64::consts::TAU;
 
 /// A damped mode of each kind of spring: the angular frequency without damping, and the part of critical damping.
 const SPRINGS: [(f64, f64); 6] = [(10.0, 0.01), (20.0, 0.02), (30.0, 0.06), (40.0, 0.08), (50.0, 0.01), (60.0, 0.06)];
@@ -378,5 +379,42 @@ fn modes_answer_to_local_dampers_as_the_direct_solution_does() {
             // Without the motions that dampers cause: 2 to 9 %.
             assert!((modal - direct).abs() < 5e-4 * direct, "{damper} {c}: {modal} for {direct}");
         }
+    }
+}
+
+/// A chain of two masses with two ratios at its own frequencies: modes have exactly these. α and β are those of the two equations
+/// ζ = α/(2ω) + βω/2.
+#[test]
+fn ratios_at_two_frequencies() {
+    // Masses 2 and springs 200: ω² = 100 (3 ± √5)/2.
+    let omega = [1.0, -1.0].map(|sign: f64| (50.0 * (3.0 - sign * 5f64.sqrt())).sqrt());
+    let [low, high] = omega.map(|omega| omega / TAU);
+    for (given, ratios) in [("ratio = 0.03", [0.03, 0.03]), ("ratios = [0.02, 0.04]", [0.02, 0.04])] {
+        let row = |(number, ratio): (usize, &f64)| {
+            // Roots have eleven digits.
+            format!("[[expect]]\nmode = {number}\nquantity = \"damping_ratio\"\nvalue = {ratio:?}\ntolerance = 1e-9\n")
+        };
+        let expected: String = (1..).zip(&ratios).map(row).collect();
+        let text = format!(
+            r#"
+analysis = {{ kind = "modal", damped = true, modes = 2 }}
+points = {{ a = [1.0, 0.0, 0.0], b = [2.0, 0.0, 0.0] }}
+masses = [{{ at = ["a", "b"], mass = 2.0 }}]
+supports = [{{ at = ["a", "b"], fix = ["uy", "uz"] }}]
+links = [
+    {{ name = "first", from = {{ ground = [0.0, 0.0, 0.0] }}, to = {{ node = "a" }}, stiffness = 200.0 }},
+    {{ name = "second", from = {{ node = "a" }}, to = {{ node = "b" }}, stiffness = 200.0 }},
+]
+damping = {{ rayleigh = {{ {given}, frequencies = [{low:?}, {high:?}] }} }}
+{expected}"#
+        );
+        let model = read_deck(&text);
+        for (omega, ratio) in omega.into_iter().zip(ratios) {
+            let sum = 0.5 * (model.damping.mass_factor / omega + model.damping.stiffness_factor * omega);
+            assert!((sum - ratio).abs() < 1e-14, "{given}: {sum}");
+        }
+        let done = run_to_the_end(&model, &mut |_: &Frame| Vec::new());
+        assert_eq!(done.verdicts.len(), 2);
+        done.verdicts.iter().for_each(|verdict| assert!(verdict.passed, "{verdict:?}"));
     }
 }
