@@ -359,8 +359,8 @@ pub const DRIFT: [Column; 6] = {
     ]
 };
 
-/// Points in contact and least clearance of a contact, then force and moment on its surface.
-pub const CONTACT: [Column; 8] = {
+/// Points in contact, those that slip and least clearance of a contact, then force and moment on its surface.
+pub const CONTACT: [Column; 9] = {
     let [fx, fy, fz, mx, my, mz] = wrench(
         "force on the surface",
         "moment on the surface, about the centre of mass of the body that carries it, about the ground surface's own point, or, on faces \
@@ -368,6 +368,7 @@ pub const CONTACT: [Column; 8] = {
     );
     [
         Column::scalar("touching", "number of points in contact", Unit::Count),
+        Column::scalar("slipping", "number of these whose friction is at its limit; 0 without `friction`", Unit::Count),
         Column::scalar("gap", "least clearance of all points", Unit::Length)
             .positive("clear of each other; negative: penetration"),
         fx,

@@ -4,14 +4,14 @@ use super::source::{CRATES, lines_below};
 
 /// Lines of the sources below src by crate, `program` for what lies beside them.
 const BUDGET: [(&str, usize); 11] = [
-    ("base", 7079),
+    ("base", 7080),
     ("linear", 4265),
-    ("mechanics", 36_969),
+    ("mechanics", 36_996),
     ("deck", 5532),
     ("import", 11_565),
-    ("model", 30_094),
-    ("solve", 37_303),
-    ("results", 12_587),
+    ("model", 30_099),
+    ("solve", 37_307),
+    ("results", 12_588),
     ("study", 4271),
     ("sweep", 1595),
     ("program", 7177),

@@ -235,7 +235,7 @@ impl Extras {
                 m: Vec3::zeros(),
                 failed: false,
             }],
-            contacts: vec![ContactState { touching: 2, gap: -1e-3, f: p, m: Vec3::zeros() }],
+            contacts: vec![ContactState { touching: 2, slipping: 1, gap: -1e-3, f: p, m: Vec3::zeros() }],
             // The second body touches twice, before and after the first.
             contact_touches: [7, 6, 7].map(|node| ContactTouch { contact: 0, nodes: [0, node], f: p, m: -p }).into(),
             sections: vec![point(0), point(1)],

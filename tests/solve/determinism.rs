@@ -364,9 +364,9 @@ impl Observer for Steps {
             sums.extend(f.iter().chain(m));
             sums.push(*drive);
         }
-        for ContactState { touching: points, gap, f, m } in &frame.derived.contacts {
+        for ContactState { touching: points, slipping, gap, f, m } in &frame.derived.contacts {
             touching.push(*points);
-            sums.push(*gap);
+            sums.extend([*gap, *slipping as f64]);
             sums.extend(f.iter().chain(m));
         }
         let sums = sums.into_iter().map(f64::to_bits).collect();

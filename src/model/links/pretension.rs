@@ -5,6 +5,7 @@ use crate::report::{Owner, Report};
 use crate::scene::Scene;
 use crate::values::span;
 use base::math::Vec3;
+use base::names::short;
 use deck::links as words;
 use mechanics::elements::link::LinkLaw;
 
@@ -76,6 +77,10 @@ pub fn pretension<'d>(
             "a link has `preload` or `pretension`",
             "one pulls from t = 0 on, the other is reached",
         );
+    }
+    if force.value < 0.0 {
+        let hint = format!("for a bolt write {}; a strut may have it", short(-force.value));
+        report.note(&force.span, "this `pretension` is negative: it pushes the ends apart", hint);
     }
     pulls(owner, link, scene, report).map(|pulls| Pretension { force: force.value, pulls })
 }

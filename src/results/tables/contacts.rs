@@ -41,14 +41,15 @@ fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
 }
 
 /// The columns of one contact, and the magnitude of the force for `[[expect]]`.
-fn values(contact: &ContactState) -> [f64; 9] {
-    let ContactState { touching, gap, f, m } = *contact;
-    [touching as f64, gap, f.x, f.y, f.z, m.x, m.y, m.z, f.norm()]
+fn values(contact: &ContactState) -> [f64; 10] {
+    let ContactState { touching, slipping, gap, f, m } = *contact;
+    [touching as f64, slipping as f64, gap, f.x, f.y, f.z, m.x, m.y, m.z, f.norm()]
 }
 
 fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     frame.model.each::<Contact>().zip(&frame.derived.contacts).try_for_each(|(contact, state)| {
-        let row = table.row(frame.step, frame.state.time).text(&contact.name).count(state.touching);
-        row.numbers(&values(state)[1..CONTACT.len()]).end()
+        let row = table.row(frame.step, frame.state.time).text(&contact.name);
+        let row = row.count(state.touching).count(state.slipping);
+        row.numbers(&values(state)[2..CONTACT.len()]).end()
     })
 }

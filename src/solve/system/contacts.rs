@@ -13,6 +13,8 @@ use model::{CarriedSurface, Contact, Model, PartType, TouchedSurface};
 pub struct ContactState {
     /// Number of points in contact.
     pub touching: usize,
+    /// Number of those whose friction is at its limit.
+    pub slipping: usize,
     /// Smallest gap of all points; negative where they penetrate.
     pub gap: f64,
     /// Force on the surface, global components.
@@ -35,15 +37,16 @@ pub struct ContactTouch {
     pub m: Vec3,
 }
 
-/// The sum over all touches on the surface: their number, the force and the moment, in the conventions of [`ContactState`].
-fn resultant(block: &dyn PairBlock, contact: &Contact, now: &Configuration) -> (usize, [Vec3; 2]) {
+/// Numbers of touches and of those that slip; force and moment of all on the surface, in the conventions of [`ContactState`].
+fn resultant(block: &dyn PairBlock, contact: &Contact, now: &Configuration) -> ([usize; 2], [Vec3; 2]) {
     let has_sides = match &contact.surface {
         TouchedSurface::Shape(_) => true,
         TouchedSurface::Facets(faces) => faces.has_sides(),
     };
-    let (mut count, mut f, mut m) = (0, Vec3::zeros(), Vec3::zeros());
+    let (mut count, mut slipping, mut f, mut m) = (0, 0, Vec3::zeros(), Vec3::zeros());
     block.each_action(now, &mut |action| {
         count += 1;
+        slipping += usize::from(action.slips());
         if has_sides {
             let [force, moment] = action.on_touched();
             f += force;
@@ -54,7 +57,7 @@ fn resultant(block: &dyn PairBlock, contact: &Contact, now: &Configuration) -> (
         // About the centre of the body so far, and about the origin as that on the facets.
         (f, m) = (-f, -(m + now.nodes[node].x.cross(&f)));
     }
-    (count, [f, m])
+    ([count, slipping], [f, m])
 }
 
 /// The name and the law of the contact that a group is of; `None` for other groups, and for monitors.
@@ -192,10 +195,11 @@ impl System {
         for (place, contact) in contacts {
             let own = || self.contact_groups().filter(move |(group, _)| group.part == place);
             let gap = least_gap(contact, own().map(|(_, block)| block), now.nodes);
-            let mut state = ContactState { touching: 0, gap, f: Vec3::zeros(), m: Vec3::zeros() };
+            let mut state = ContactState { touching: 0, slipping: 0, gap, f: Vec3::zeros(), m: Vec3::zeros() };
             for (group, block) in own() {
-                let (touching, [f, m]) = resultant(block, contact, &group.configuration(now));
+                let ([touching, slipping], [f, m]) = resultant(block, contact, &group.configuration(now));
                 state.touching += touching;
+                state.slipping += slipping;
                 state.f += f;
                 state.m += m;
             }

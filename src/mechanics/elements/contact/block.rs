@@ -1,6 +1,7 @@
 //! Points against a surface as a block of elements.
 
 use super::force::touch;
+use super::friction::slips;
 use super::history::{PairMemory, PairMemoryMut};
 use super::kinematics::Contacts;
 use super::law::ContactLaw;
@@ -96,7 +97,7 @@ impl PairBlock for Contacts {
         for (e, point) in self.points.iter().enumerate() {
             let Some((at, acting)) = touch(self, e, now) else { continue };
             let (f, m) = (at.R * acting.F, at.R * acting.M);
-            let T = acting.friction.map_or(0.0, |friction| friction.T.norm_squared());
+            let [T, limit] = acting.friction.map_or([0.0; 2], |friction| [friction.T.norm_squared(), friction.limit]);
             act(&PairAction {
                 sides: [point.side(), PairSide::of_node(&self.carrier)],
                 F: f,
@@ -105,6 +106,7 @@ impl PairBlock for Contacts {
                 less: None,
                 // Multipliers do no work.
                 stored: if self.has_multipliers() { 0.0 } else { 0.5 * k * at.gap * at.gap + 0.5 * T / k },
+                slips: slips(T.sqrt(), limit),
             });
         }
     }

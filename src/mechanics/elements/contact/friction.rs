@@ -13,6 +13,8 @@ use base::math::{Mat3, Vec3, skew};
 pub struct FrictionForce {
     /// Friction force on the surface, along the slip.
     pub T: Vec3,
+    /// The largest size of this force.
+    pub limit: f64,
     /// Displacement of the anchor by slip.
     pub slip: Vec3,
     /// ∂T/∂p at fixed N.
@@ -21,6 +23,11 @@ pub struct FrictionForce {
     pub by_N: Vec3,
     /// ∂T/∂φ.
     pub by_phi: Mat3,
+}
+
+/// True for friction of this size at its limit. The anchor lies there after a step with slip, but for rounding.
+pub fn slips(pull: f64, limit: f64) -> bool {
+    pull > 0.0 && pull >= (1.0 - 1e-9) * limit
 }
 
 /// The friction force by the stretch s = P e, e = p − a − r φ×n, of the spring; `N` is the normal force.
@@ -48,6 +55,7 @@ pub fn friction_force(
         let k = stiffness;
         return FrictionForce {
             T: k * s,
+            limit,
             slip: Vec3::zeros(),
             by_p: k * by_p,
             by_N: Vec3::zeros(),
@@ -58,6 +66,7 @@ pub fn friction_force(
     let turn = limit / length * (Mat3::identity() - t * t.transpose());
     FrictionForce {
         T: limit * t,
+        limit,
         slip: s - limit / stiffness * t,
         by_p: turn * by_p,
         by_N: mu * t,

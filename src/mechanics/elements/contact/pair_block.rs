@@ -39,12 +39,19 @@ pub struct PairAction<'a> {
     pub(super) less: Option<([PairSide<'a>; 2], Vec3, Vec3)>,
     /// Energy of the springs.
     pub(super) stored: f64,
+    /// True where friction is at its limit.
+    pub(super) slips: bool,
 }
 
 impl PairAction<'_> {
     /// A node of the touched side and one of the touching side.
     pub fn nodes(&self) -> [usize; 2] {
         [self.sides[1].nodes[0], self.sides[0].nodes[0]]
+    }
+
+    /// True where friction is at its limit.
+    pub fn slips(&self) -> bool {
+        self.slips
     }
 
     /// Force on the touched side and its moment about [`PairBlock::carrier`], or else about the origin.

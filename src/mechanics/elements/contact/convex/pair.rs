@@ -5,6 +5,7 @@ use super::memory::Memory;
 use super::pose::{ConvexPose, LeastAxis};
 use super::rubbing::{Rubbing, rubbing};
 use super::touch::{SHALLOW, depth_along};
+use crate::elements::contact::friction::slips;
 use crate::elements::contact::history::{self, PairMemory};
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::pair_block::{PairAction, PairSide};
@@ -231,7 +232,7 @@ impl<'a> ConvexPair<'a> {
     pub fn action(&self, at: &PairKinematics, acting: &PairForce) -> PairAction<'a> {
         let (F, m) = at.global(&acting.W);
         let k = self.law.stiffness;
-        let pull = acting.rubbing.as_ref().map_or(0.0, |rubbing| rubbing.pull);
+        let [pull, limit] = acting.rubbing.as_ref().map_or([0.0; 2], |rubbing| [rubbing.pull, rubbing.limit]);
         PairAction {
             sides: [PairSide::of_node(&self.one.node), PairSide::of_node(&self.other.node)],
             F,
@@ -239,6 +240,7 @@ impl<'a> ConvexPair<'a> {
             arm: Vec3::zeros(),
             less: None,
             stored: 0.5 * k * (acting.depth.D - acting.inset).max(0.0).powi(2) + 0.5 * pull * pull / k,
+            slips: slips(pull, limit),
         }
     }
 }

@@ -17,6 +17,8 @@ pub struct Rubbing {
     pub by_N: Vec6,
     /// Size of the force and moment of the spring, as a force.
     pub pull: f64,
+    /// The largest of that size.
+    pub limit: f64,
     /// The stretch that the spring keeps.
     pub stretch: Vec3,
     /// The twist that the spring keeps, in radians.
@@ -53,5 +55,5 @@ pub fn rubbing(
     // The friction force in slip is proportional to N.
     let by_N = if slips && N > 0.0 { W / N } else { Vec6::zeros() };
     let (pull, part) = if slips { (limit, limit / (k * length)) } else { (k * length, 1.0) };
-    Some(Rubbing { W, by_N, pull, stretch: part * e, twist: part * twist, slip: (1.0 - part) * length })
+    Some(Rubbing { W, by_N, pull, limit, stretch: part * e, twist: part * twist, slip: (1.0 - part) * length })
 }

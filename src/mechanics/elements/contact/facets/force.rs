@@ -48,7 +48,7 @@ impl FacetPair<'_> {
             F: normal.force * n - friction.T,
             M,
             C: place.d * n.cross(&friction.T) - M,
-            friction: Some(Rub { T: friction.T, slip: friction.slip }),
+            friction: Some(Rub { T: friction.T, limit: friction.limit, slip: friction.slip }),
             ..free
         }
     }

@@ -44,7 +44,7 @@ pub(super) fn rub(pair: &FacetPair, place: &PairPlace, memory: PairMemory, N: f6
     let stretch = p * along + q * across + way - n.dot(&way) * n;
     let (length, limit) = (stretch.norm(), pair.law.friction_at(memory.slip_speed()) * N / pair.law.stiffness);
     let kept = if length > limit { limit / length * stretch } else { stretch };
-    Rub { T: pair.law.stiffness * kept, slip: stretch - kept }
+    Rub { T: pair.law.stiffness * kept, limit: pair.law.stiffness * limit, slip: stretch - kept }
 }
 
 /// The displacement of the material at the contact since the last state, relative to the common motion.

@@ -2,6 +2,7 @@
 
 use super::facet::{Facet, FacetPoint, MOST_CORNERS, Region};
 use super::facing::Facing;
+use crate::elements::contact::friction::slips;
 use crate::elements::contact::history::PairMemory;
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::pair_block::{PairAction, PairSide};
@@ -78,6 +79,8 @@ impl PairPlace {
 pub(super) struct Rub {
     /// Force on the facet, along the slip.
     pub T: Vec3,
+    /// The largest size of this force.
+    pub limit: f64,
     /// The way that slips.
     pub slip: Vec3,
 }
@@ -188,7 +191,8 @@ impl<'a> FacetPair<'a> {
         let arm_of = |end: &EndForce| {
             self.facet.nodes().iter().zip(end.W).map(|(&node, share)| -share * nodes[node].x).sum::<Vec3>()
         };
-        let T = force.friction.as_ref().map_or(0.0, |friction| friction.T.norm_squared());
+        let [T, limit] =
+            force.friction.as_ref().map_or([0.0; 2], |friction| [friction.T.norm_squared(), friction.limit]);
         let sides = |own: &'b [f64], other: &'b [f64]| {
             [PairSide { nodes: point.nodes(), shares: own }, PairSide { nodes: self.facet.nodes(), shares: other }]
         };
@@ -199,6 +203,7 @@ impl<'a> FacetPair<'a> {
             arm: x - place.at.g,
             less: force.less.as_ref().map(|end| (sides(&end.shares, &end.W), end.F, arm_of(end))),
             stored: 0.5 * k * pressed + 0.5 * T / k,
+            slips: slips(T.sqrt(), limit),
         }
     }
 }
