@@ -23,6 +23,8 @@ pub enum Failure {
         open: Option<String>,
         /// True for the first matrix of a run that nothing has moved yet: shorter steps do not help.
         at_start: bool,
+        /// The part that yields most, in words.
+        yielded: Option<String>,
     },
     /// A massless direction without restraint at a node.
     MasslessDirection {
@@ -47,6 +49,8 @@ pub enum Failure {
         open: Option<String>,
         /// True where something may slip, and the matrix is the symmetric part of the tangent.
         lacks_slip: bool,
+        /// The part that yields most, in words.
+        yielded: Option<String>,
         /// The largest residual forces.
         largest: Vec<NamedResidual>,
     },
@@ -175,6 +179,8 @@ pub enum Failure {
         work: f64,
         /// The energy stored and dissipated in the step.
         stored: f64,
+        /// A contact without friction, on which parts may slide.
+        smooth: Option<String>,
     },
     /// A load step ends on an unstable branch; a shorter one may not.
     UnstableStep,
@@ -214,9 +220,9 @@ pub enum Failure {
 
 keep_either!(Failure {
     0 => NoLoadIncrement { time },
-    1 => Singular { label, direction, open, at_start },
+    1 => Singular { label, direction, open, at_start, yielded },
     2 => MasslessDirection { label, rotation, direction, buckles, open },
-    3 => NotConverged { iterations, cause, open, lacks_slip, largest },
+    3 => NotConverged { iterations, cause, open, lacks_slip, yielded, largest },
     4 => ConstraintsViolated { largest, inertias },
     5 => TooManySubsteps { steps, substeps, dt, cause },
     6 => NoEquilibriumOnArc { largest },
@@ -229,7 +235,7 @@ keep_either!(Failure {
     13 => RotationTooLarge { dt },
     14 => LoadStepTurns { label, angle },
     15 => TurnedOver { name },
-    16 => EquilibriumJumps { label, direction, work, stored },
+    16 => EquilibriumJumps { label, direction, work, stored, smooth },
     17 => ErrorTooLarge { dt },
     18 => Modes(fault),
     19 => NotFinite { largest },
@@ -267,7 +273,7 @@ impl Failure {
         (open, at_start): (Option<String>, bool),
     ) -> Failure {
         let (label, direction) = name(model, plan, system, row);
-        Failure::Singular { label, direction, open, at_start }
+        Failure::Singular { label, direction, open, at_start, yielded: None }
     }
 
     /// An unresisted motion, by the node and degree of freedom with the largest motion.
@@ -277,7 +283,8 @@ impl Failure {
         open: Option<String>,
         at_start: bool,
     ) -> Failure {
-        Failure::Singular { label: model.nodes[node].label.clone(), direction: DIRECTIONS[dof], open, at_start }
+        let label = model.nodes[node].label.clone();
+        Failure::Singular { label, direction: DIRECTIONS[dof], open, at_start, yielded: None }
     }
 }
 
@@ -349,7 +356,13 @@ fn time_went_back([begin, end]: [String; 2]) -> String {
 }
 
 /// The message of a singular matrix, with a part there that is open or slack.
-fn singular(label: &str, direction: &str, open: Option<&str>) -> String {
+fn singular(label: &str, direction: &str, [open, yielded]: [Option<&str>; 2]) -> String {
+    if let (None, Some(part)) = (open, yielded) {
+        return format!(
+            "the system is singular at `{label}` in direction {direction}: {part}. The load has passed the limit load, or the structure buckles. \
+             Give a hardening, smaller loads, or `kind = \"dynamic\"` to follow the motion"
+        );
+    }
     let remedy = open.map_or_else(
         || {
             "Add a support or a soft spring there; give cables pretension (`free_length`), or compute a mechanism with `kind = \"dynamic\"`"
@@ -428,6 +441,16 @@ impl Failure {
         matches!(self, Failure::ConstraintsViolated { .. } | Failure::UnstableStep | Failure::Buckles(_))
     }
 
+    /// The part that yields most, of failures by a lost stiffness.
+    pub(super) fn yielded_mut(&mut self) -> Option<&mut Option<String>> {
+        match self {
+            Failure::Singular { yielded, .. } => Some(yielded),
+            Failure::NotConverged { cause, yielded, .. } => cause.at_limit.then_some(yielded),
+            Failure::TooManySubsteps { cause, .. } => cause.yielded_mut(),
+            _ => None,
+        }
+    }
+
     /// True if memory is short.
     pub fn is_of_memory(&self) -> bool {
         matches!(self, Failure::Modes(ModesFault::TooLarge(_)))
@@ -444,13 +467,15 @@ impl Failure {
     /// The message without the list of the largest residuals or gaps: the event and the remedy.
     fn message(&self) -> String {
         match self {
-            Failure::Singular { label, direction, open, .. } => singular(label, direction, open.as_deref()),
+            Failure::Singular { label, direction, open, yielded, .. } => {
+                singular(label, direction, [open.as_deref(), yielded.as_deref()])
+            }
             Failure::MasslessDirection { label, rotation, direction, buckles, open } => {
                 massless(label, *rotation, direction, *buckles, open.as_deref())
             }
-            Failure::NotConverged { iterations, cause, open, lacks_slip, largest } => {
+            Failure::NotConverged { iterations, cause, open, lacks_slip, yielded, largest } => {
                 let worst = largest.first().map(|worst| (&*worst.label, worst.direction, worst.residual));
-                cause.message(*iterations, open.as_deref(), *lacks_slip, worst)
+                cause.message(*iterations, [open.as_deref(), yielded.as_deref()], *lacks_slip, worst)
             }
             Failure::Modes(fault) => fault.to_string(),
             Failure::Stopped => {
@@ -545,11 +570,16 @@ impl Failure {
                 "an element of `{name}` is turned over or compressed to zero length, so its stress is not defined. It has collapsed under the \
                  loads, or the step jumped to another equilibrium. Give `control` = \"arc-length\", or `kind = \"dynamic\"` with smaller loads"
             ),
-            Failure::EquilibriumJumps { label, direction, work, stored } => format!(
-                "the equilibrium jumps by snap-through, buckling or a mechanism: loads do {work:.3e} of work in a step that stores and dissipates \
-                 {stored:.3e}, however short the step is. `{label}` moves most, in direction {direction}. Follow the path with `control` = \
-                 \"arc-length\", or the motion with `kind = \"dynamic\"`"
-            ),
+            Failure::EquilibriumJumps { label, direction, work, stored, smooth } => {
+                let slides = smooth.as_ref().map_or_else(String::new, |contact| {
+                    format!(". Contact `{contact}` has no `friction`: give it some where it should hold")
+                });
+                format!(
+                    "the equilibrium jumps by snap-through, buckling or a mechanism: loads do {work:.3e} of work in a step that stores and \
+                     dissipates {stored:.3e}, however short the step is. `{label}` moves most, in direction {direction}{slides}. Follow the path \
+                     with `control` = \"arc-length\", or the motion with `kind = \"dynamic\"`"
+                )
+            }
             Failure::UnstableStep => "the load step ends on an unstable branch of equilibria: the structure buckles, and `least_step` \
                 keeps steps from following the path. Give a hundredth of `least_step`"
                 .to_owned(),

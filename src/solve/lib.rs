@@ -51,6 +51,7 @@ mod time_stepper;
 mod tolerances;
 mod warning;
 mod workspace;
+mod yielded;
 
 /// Internal parts of steps, for tests.
 pub mod inner {

@@ -10,6 +10,7 @@ use super::report::StepReport;
 use super::sample::{Sample, Samples};
 use super::stop_watch::StopWatch;
 use super::workspace::Workspace;
+use super::yielded;
 use base::snapshot::{Keep, Snapshot, keep};
 use mechanics::state::{Node, State};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -158,7 +159,7 @@ impl March<'_, '_> {
     pub fn given_up(&mut self, failure: Failure) -> Outcome {
         let failure =
             out_of_reach::explained(self.cx, (&mut self.ws.forces, &mut self.ws.loads.instant), self.state, failure);
-        self.failed(failure)
+        self.failed(yielded::explained(self.cx, self.state, failure))
     }
 
     /// Shows the state at t = 0 to the observer.

@@ -19,12 +19,12 @@ pub struct NoConvergence {
 keep!(NoConvergence: Default { at_limit, least_step, enough, moves });
 
 impl NoConvergence {
-    /// The message up to the list of forces. `open` is the part that has opened last, in quotes. With `lacks_slip` the matrix omits a part
-    /// of friction. `worst` is the node, direction and size of the largest residual force.
+    /// The message up to the list of forces. `open` is the part that has opened last, in quotes; `yielded` yields most at a limit load. With
+    /// `lacks_slip` the matrix omits a part of friction. `worst` is the node, direction and size of the largest residual force.
     pub fn message(
         &self,
         iterations: usize,
-        open: Option<&str>,
+        [open, yielded]: [Option<&str>; 2],
         lacks_slip: bool,
         worst: Option<(&str, &str, f64)>,
     ) -> String {
@@ -35,9 +35,10 @@ impl NoConvergence {
             false => "",
         };
         if open.is_none() && self.at_limit {
+            let where_lost = yielded.map_or_else(String::new, |part| format!("; {part}"));
             return format!(
                 "no equilibrium is found beyond this load: the structure buckles or reaches its limit load, for a pivot of the tangent is \
-                 negative or vanishes{slips}. Give `control` = \"arc-length\" to follow the path on which the load falls, or \
+                 negative or vanishes{where_lost}{slips}. Give `control` = \"arc-length\" to follow the path on which the load falls, or \
                  `kind = \"dynamic\"` to follow the motion. After {iterations} iterations the largest unbalanced forces are"
             );
         }

@@ -10,7 +10,7 @@ const BUDGET: [(&str, usize); 11] = [
     ("deck", 5532),
     ("import", 11_565),
     ("model", 30_099),
-    ("solve", 37_307),
+    ("solve", 37_373),
     ("results", 12_588),
     ("study", 4271),
     ("sweep", 1595),

@@ -21,7 +21,7 @@ fn failures() -> Vec<Failure> {
         shortens: "time_step".to_owned(),
         kept_until: 0.2,
     };
-    let singular = |open, at_start| Failure::Singular { label: label(), direction, open, at_start };
+    let singular = |open, at_start| Failure::Singular { label: label(), direction, open, at_start, yielded: None };
     let massless = |rotation, buckles, open| Failure::MasslessDirection {
         label: label(),
         rotation,
@@ -34,6 +34,7 @@ fn failures() -> Vec<Failure> {
         cause,
         open,
         lacks_slip,
+        yielded: cause.at_limit.then(|| "shell `wall` yields most".to_owned()),
         largest: largest(),
     };
     let inertia = |label: &str, residual| NamedResidual { label: label.to_owned(), direction: "", residual };
@@ -79,7 +80,13 @@ fn failures() -> Vec<Failure> {
         Failure::LoadStepTurns { label: label(), angle: 1.6 },
         Failure::NodeTurns { label: label(), angle: 1.6 },
         Failure::TurnedOver { name: name() },
-        Failure::EquilibriumJumps { label: label(), direction, work: 3.0, stored: 1.0 },
+        Failure::EquilibriumJumps {
+            label: label(),
+            direction,
+            work: 3.0,
+            stored: 1.0,
+            smooth: Some("plates".to_owned()),
+        },
         Failure::UnstableStep,
         Failure::Buckles(found),
         Failure::ErrorTooLarge { dt: 1e-9 },

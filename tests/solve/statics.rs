@@ -216,6 +216,32 @@ fn two_beams_in_line_joined_by_a_hinge_are_refused_with_every_step() {
     }
 }
 
+/// Two beams in line without hardening, 400 mm² and 2500 mm²: beyond 100 kN the thin one has no stiffness left, and the message names it.
+#[test]
+fn a_part_that_yields_throughout_is_named() {
+    let square = |name: &str, side: f64| {
+        format!("[sections.{name}]\nshape = \"rectangle\"\nwidth = {side:?}\nheight = {side:?}\n")
+    };
+    let part = |name: &str, path: [&str; 2], section: &str| {
+        format!(
+            "[[beams]]\nname = \"{name}\"\npath = {path:?}\nelements = 2\nmaterial = \"soft\"\nsection = \"{section}\"\n\
+             orientation = [0.0, 1.0, 0.0]\n"
+        )
+    };
+    let text = format!(
+        "[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = 0.1\n\
+         [materials.soft]\nmodel = \"elastic-plastic\"\nyoungs_modulus = 210e9\npoisson_ratio = 0.3\nyield_stress = 250e6\n{}{}\
+         [points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\nc = [2.0, 0.0, 0.0]\n{}{}\
+         [[supports]]\nat = \"a\"\nfix = \"all\"\n[[loads]]\nat = \"c\"\nforce = [110e3, 0.0, 0.0]\n",
+        square("thick", 0.05),
+        square("thin", 0.02),
+        part("shank", ["a", "b"], "thick"),
+        part("neck", ["b", "c"], "thin"),
+    );
+    let text = failure(&text).to_string();
+    assert!(text.contains("beam `neck` yields most"), "{text}");
+}
+
 /// The truss under a load on its crown: it bears 38.2 at most, beyond which it snaps through.
 pub fn truss(load: f64, step: f64) -> String {
     format!(

@@ -12,7 +12,7 @@ use crate::workspace::Workspace;
 use base::math::{Vec3, angular, linear};
 use mechanics::materials::Dissipation;
 use mechanics::state::{Configuration, State};
-use model::DIRECTIONS;
+use model::{Contact, DIRECTIONS};
 
 /// Refuses load steps off the path of equilibria and load steps with too large rotations.
 pub struct JumpGuard;
@@ -186,5 +186,7 @@ fn largest_motion(cx: &Context, ws: &Workspace) -> (f64, (usize, usize)) {
 
 fn failure(cx: &Context, (node, dof): (usize, usize), work: f64, stored: f64) -> Failure {
     let label = cx.model.nodes.get(node).map_or_else(String::new, |node| node.label.clone());
-    Failure::EquilibriumJumps { label, direction: DIRECTIONS[dof], work, stored }
+    let is_smooth = |contact: &&Contact| contact.law.is_some_and(|law| law.friction == 0.0);
+    let smooth = cx.model.each::<Contact>().find(is_smooth).map(|contact| contact.name.clone());
+    Failure::EquilibriumJumps { label, direction: DIRECTIONS[dof], work, stored, smooth }
 }
