@@ -1,6 +1,6 @@
 //! The modes of a run as lines for the terminal and the log.
 
-use base::names::to_digits;
+use base::names::{joined, to_digits};
 use base::quantities::{Unit, UnitSystem};
 use model::Model;
 use solve::modes::{EigenMode, ModeKind, Modes, Whirl};
@@ -25,10 +25,27 @@ pub fn lines(modes: &Modes, model: &Model) -> Vec<String> {
     if let Some(more) = modes.list.len().checked_sub(LISTED).filter(|more| *more > 0) {
         lines.push(format!("  and {more} more in modes.csv"));
     }
+    lines.extend(of_rigid(modes));
     if !modes.speeds.is_empty() {
         lines.extend(of_critical_speeds(modes, units));
     }
     lines
+}
+
+/// A line about natural modes of frequency zero that nothing resists.
+fn of_rigid(modes: &Modes) -> Option<String> {
+    /// Roots have eleven digits.
+    const ROUNDING: f64 = 1e-9;
+    let size = |mode: &EigenMode| mode.root[0].hypot(mode.root[1]);
+    let highest = modes.list.iter().map(size).fold(0.0, f64::max);
+    let is_free = |mode: &EigenMode| mode.factor.is_none() && mode.lost.is_none() && size(mode) <= ROUNDING * highest;
+    let free: Vec<String> =
+        (1..).zip(&modes.list).filter(|(_, mode)| is_free(mode)).map(|(number, _)| number.to_string()).collect();
+    let free: Vec<&str> = free.iter().map(String::as_str).collect();
+    (!free.is_empty()).then(|| {
+        let of = if free.len() == 1 { "mode" } else { "modes" };
+        format!("  {of} {}: a free motion, as a rigid body or a mechanism, without stiffness", joined(&free))
+    })
 }
 
 /// A heading with its unit, where the deck has units.

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use super::load::{Loaded, model_stage};
 use super::verdict::{
-    MissedStop, energy_line, energy_warning, has_blown_up, missed_stop, overshoot_warning, rest_warning,
+    MissedStop, early_stop, energy_line, energy_warning, has_blown_up, missed_stop, overshoot_warning, rest_warning,
     ringing_warning, rows_warning, work_warning,
 };
 use super::watchers::{Watchers, stage_begins};
@@ -170,6 +170,7 @@ impl StagesTold {
         if !model.analysis.has_modes() {
             self.contacts.iter_mut().zip(run.contacts()).for_each(|(all, of_stage)| all.extend(of_stage));
         }
+        self.remarks.extend(early_stop(model, run, effort.steps).map(|text| format!("{stage}{text}")));
         self.counts = run.counts();
         self.observing += run.observing();
         self.rotation_drift = self.rotation_drift.max(run.rotation_drift());

@@ -1,8 +1,9 @@
 //! The end of a run in words: its status, its warnings about energy, its expectations.
 
 use base::names::{instant, short, to_digits};
+use base::quantities::{Unit, UnitSystem};
 use mechanics::integrators::spectrum::spectrum;
-use model::{AnalysisKind, ArcLength, DIRECTIONS, History, Model, StepLength};
+use model::{AnalysisKind, ArcLength, DIRECTIONS, History, Load, Model, StepLength, StopQuantity};
 use results::error_bars::ErrorBar;
 use results::expect::Verdict;
 use results::result_json::Status;
@@ -136,6 +137,17 @@ pub fn missed_stop(model: &Model, run: &Run, time: f64) -> Option<MissedStop> {
     })
 }
 
+/// Notes a `stop` by work within the first step of a stage, such as joules in a deck of N and mm.
+pub fn early_stop(model: &Model, run: &Run, steps: usize) -> Option<String> {
+    let stop = model.analysis.stage.as_ref()?.stop.as_ref()?;
+    let is_work = matches!(stop.quantity, StopQuantity::Work(_));
+    (is_work && steps <= 1 && run.has_stopped() == Some(true)).then(|| {
+        let units = model.output.units.as_deref().and_then(UnitSystem::find);
+        let unit = Unit::Energy.text(units);
+        format!("{} came to {} within the first step: see that this is in {unit}", stop.label, stop.value)
+    })
+}
+
 /// The change of energy by time integration, in a line; `None` if nothing moves.
 pub fn energy_line(balance: &Balance, model: &Model) -> Option<String> {
     let motion = balance.motion();
@@ -258,6 +270,13 @@ fn weighs_at_once(model: &Model) -> bool {
     model.analysis.begin == 0.0 && at_start * loading.gravity.norm() != 0.0 && deforms && model::holds_all(model)
 }
 
+/// True where a load acts at once at t = 0.
+fn pushes_at_once(model: &Model) -> bool {
+    let loading = &model.loading;
+    let at_start = |load: &Load| load.amplitude.map_or(1.0, |index| loading.amplitudes[index].value(0.0));
+    model.analysis.begin == 0.0 && loading.nodal.iter().any(|load| at_start(load) != 0.0)
+}
+
 /// The warning about a bad energy balance; `None` if it is good.
 pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
     /// The limit for the largest energy on the way. It is less strict, because an impact stores and returns energy within a step.
@@ -280,9 +299,14 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
         ),
         None => format!("Give {shorter}; `numerical` in energy.csv shows the effect"),
     };
-    let remedy = match weighs_at_once(model) {
-        true => format!("{remedy}. Gravity acts at once at t = 0: bring it on in a static stage before the motion"),
-        false => remedy,
+    let remedy = match (weighs_at_once(model), pushes_at_once(model)) {
+        (true, _) => {
+            format!("{remedy}. Gravity acts at once at t = 0: bring it on in a static stage before the motion")
+        }
+        (false, true) => format!(
+            "{remedy}. Loads act at once at t = 0: forces and energies in the first rows may be those of the scheme. Let the loads grow over ten steps"
+        ),
+        (false, false) => remedy,
     };
     if is_seen(balance.generated, balance, model) {
         let part = part(balance.generated);

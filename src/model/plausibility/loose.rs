@@ -75,7 +75,16 @@ fn tell_of_all_free(
             "no support, joint or contact holds `{name}` or any other part to the ground: all of them fall freely"
         );
         report.note(&place, message, "add `[[supports]]`, if that is not meant");
+    } else if !falls && deforms && is_still && !lands && pushes_at_end(model) {
+        let message = format!("no support, joint or contact holds `{name}` or any other part against the loads");
+        report.note(&place, message, "add `[[supports]]`, if it is not meant to fly");
     }
+}
+
+/// True where a load acts to the end; one that throws a part off ends before.
+fn pushes_at_end(model: &Model) -> bool {
+    let at_end = |index: usize| model.loading.amplitudes[index].value(model.analysis.end_time);
+    model.loading.nodal.iter().any(|load| load.amplitude.is_none_or(|index| at_end(index) != 0.0))
 }
 
 /// Notes parts with the initial velocity of other parts, if only the others are joined to the ground.

@@ -49,13 +49,11 @@ fn check_mesh_size(scene: &Scene, nodes: &Nodes, report: &mut Report) {
     let corner = |pick: fn(&Vec3, &Vec3) -> Vec3| places().reduce(|a, b| pick(&a, &b)).unwrap_or_default();
     let extent = (corner(Vec3::sup) - corner(Vec3::inf)).norm();
     let in_metres = extent * units.value.scales()[0];
-    if mesh.scale.is_none() && in_metres > LARGE {
+    let scale = mesh.scale.as_ref();
+    if scale.is_none_or(|scale| scale.value > 1.0) && in_metres > LARGE {
         let message = format!("the model extends over {} m in the units {}", short(in_metres), units.value.label());
-        report.note(
-            &mesh.span,
-            message,
-            "if the mesh file is in mm, give `scale = 0.001` in `[mesh]`, or other `units`",
-        );
+        let hint = "if the mesh file is in mm, give `scale = 0.001` in `[mesh]`, or other `units`";
+        report.note(scale.map_or(&mesh.span, |scale| &scale.span), message, hint);
     }
 }
 

@@ -90,7 +90,11 @@ fn loads(
     units: Option<&UnitSystem>,
 ) -> Option<String> {
     let mut sums: Vec<(Option<usize>, [f64; 6])> = Vec::new();
+    // Forces that cancel leave rounding of their sizes.
+    let mut terms = [0.0; 2];
     let mut add = |amplitude: Option<usize>, force: Vec3, moment: Vec3| {
+        terms[0] += force.norm();
+        terms[1] += moment.norm();
         let place = sums.iter().position(|(of, _)| *of == amplitude).unwrap_or_else(|| {
             sums.push((amplitude, [0.0; 6]));
             sums.len() - 1
@@ -131,7 +135,7 @@ fn loads(
     let symbols = [Unit::Force, Unit::Moment].map(|unit| symbol(unit, units));
     let line = ranges.iter().enumerate().filter_map(|(i, [least, most])| {
         let size = sizes[i / 3];
-        let is_seen = least.abs().max(most.abs()) > ROUNDING * size;
+        let is_seen = least.abs().max(most.abs()) > ROUNDING * size.max(terms[i / 3]);
         is_seen.then(|| format!("{} {}{}", words[i], range(*least, *most, size), symbols[i / 3]))
     });
     let line: Vec<String> = line.collect();
