@@ -1,8 +1,8 @@
 //! `[[expect]]`: values that a run must reach.
 
 use super::data::{
-    Beam, DIRECTIONS, Expect, ExpectAt, JOINT_MAGNITUDES, LoadCases, ModeExtent, OverFrequencies, Part, PartKind,
-    PartType, ResponseOf, Tolerance, When, quantities_of,
+    Beam, DIRECTIONS, Expect, ExpectAt, JOINT_MAGNITUDES, LoadCases, ModeExtent, OverFrequencies, Part, PartType,
+    ResponseOf, Tolerance, When, quantities_of,
 };
 use super::places::nodes::Topology;
 use super::places::place::Place;
@@ -246,7 +246,7 @@ impl<'d> Expects<'_, 'd> {
         let of = name.and_then(|name| match self.scene.place_or_node(name) {
             Some(Place::Point(node)) => Some(ResponseOf::Node(node)),
             Some(Place::Body(body)) => Some(ResponseOf::Node(self.scene.names.body_node(body))),
-            Some(Place::Part(part)) if part.kind == PartKind::Link => Some(ResponseOf::Link(part.index)),
+            Some(Place::Part(part)) if part.kind.word() == "link" => Some(ResponseOf::LinkForce(part.index)),
             Some(place) => {
                 let message = format!("`{}` is {}, without a response", name.value, place.kind());
                 self.report.error_with(&name.span, message, "name a point, a body or a link")
@@ -258,7 +258,7 @@ impl<'d> Expects<'_, 'd> {
         });
         let quantity = self.report.require(owner, "quantity", &expect.quantity);
         let columns = match of {
-            Some(ResponseOf::Link(_)) => &quantities::RESPONSE_LINK,
+            Some(ResponseOf::LinkForce(_)) => &quantities::RESPONSE_LINK,
             _ => &quantities::RESPONSE,
         };
         let column = quantity.zip(name).and_then(|(quantity, name)| self.column(columns, quantity, name));

@@ -26,6 +26,7 @@ pub mod matrix_market;
 pub mod observed;
 pub mod progress;
 pub mod report;
+mod response_rows;
 pub mod result_json;
 mod run_list;
 mod shared_lock;

@@ -376,6 +376,18 @@ fn singular(label: &str, direction: &str, [open, yielded]: [Option<&str>; 2]) ->
     )
 }
 
+/// The message of a load step between two paths of equilibria. `smooth` is a contact without friction.
+fn jumps((label, direction): (&str, &str), [work, stored]: [f64; 2], smooth: Option<&str>) -> String {
+    let slides = smooth.map_or_else(String::new, |contact| {
+        format!(". Contact `{contact}` has no `friction`: give it some where it should hold")
+    });
+    format!(
+        "the equilibrium jumps by snap-through, buckling or a mechanism: loads do {work:.3e} of work in a step that stores and dissipates \
+         {stored:.3e}, however short the step is. `{label}` moves most, in direction {direction}{slides}. Follow the path with `control` = \
+         \"arc-length\", or the motion with `kind = \"dynamic\"`"
+    )
+}
+
 /// The message of an unrestrained massless direction.
 fn massless(label: &str, rotation: bool, direction: &[f64; 3], buckles: bool, open: Option<&str>) -> String {
     let what = if rotation { "inertia" } else { "mass" };
@@ -571,14 +583,7 @@ impl Failure {
                  loads, or the step jumped to another equilibrium. Give `control` = \"arc-length\", or `kind = \"dynamic\"` with smaller loads"
             ),
             Failure::EquilibriumJumps { label, direction, work, stored, smooth } => {
-                let slides = smooth.as_ref().map_or_else(String::new, |contact| {
-                    format!(". Contact `{contact}` has no `friction`: give it some where it should hold")
-                });
-                format!(
-                    "the equilibrium jumps by snap-through, buckling or a mechanism: loads do {work:.3e} of work in a step that stores and \
-                     dissipates {stored:.3e}, however short the step is. `{label}` moves most, in direction {direction}{slides}. Follow the path \
-                     with `control` = \"arc-length\", or the motion with `kind = \"dynamic\"`"
-                )
+                jumps((label.as_str(), *direction), [*work, *stored], smooth.as_deref())
             }
             Failure::UnstableStep => "the load step ends on an unstable branch of equilibria: the structure buckles, and `least_step` \
                 keeps steps from following the path. Give a hundredth of `least_step`"

@@ -63,8 +63,8 @@ pub enum ExpectAt {
 pub enum ResponseOf {
     /// A node, or a body by its node.
     Node(usize),
-    /// A link, by its place among all links.
-    Link(usize),
+    /// The force of a link, by its place among all links.
+    LinkForce(usize),
 }
 
 /// The frequency for reading a response.

@@ -29,7 +29,7 @@ pub static TABLE: TableKind = TableKind {
 };
 
 /// Links of joints come after those of the deck, and have rows in joints.csv.
-pub(super) fn of_deck(model: &Model) -> impl Iterator<Item = &Link> {
+fn of_deck(model: &Model) -> impl Iterator<Item = &Link> {
     model.each::<Link>().filter(|link| !link.is_of_joint())
 }
 

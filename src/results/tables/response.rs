@@ -1,10 +1,10 @@
 //! response.csv: the steady motion of chosen nodes and of bodies at each frequency.
 
 use crate::extent::Rows;
+use crate::response_rows;
 use crate::table::{Answers, TableKind, WriteRow};
 use base::quantities::{Column, RESPONSE, RESPONSE_FREQUENCY, names};
-use model::{ExpectAt, OverFrequencies, ResponseOf};
-use solve::modes::{Response, ResponseRow};
+use model::{ExpectAt, ResponseOf};
 use solve::{Frame, Wanted};
 use std::io;
 
@@ -20,33 +20,13 @@ pub static TABLE: TableKind = TableKind {
     every_step: false,
     extent: |_| Rows { rows: 0, letters: 0, numbers: 0 },
     rows: |_| Box::new(write),
-    answers: Some(Answers { quantities, needs: Wanted::MODES, value }),
+    answers: Some(Answers { quantities, needs: Wanted::MODES, value: response_rows::value }),
 };
 
 fn quantities(at: ExpectAt) -> Vec<&'static str> {
     match at {
         ExpectAt::Response(ResponseOf::Node(_), _) => names(&[&RESPONSE]),
         _ => Vec::new(),
-    }
-}
-
-/// The value of a column of a response at its frequency, or its extreme.
-pub(super) fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
-    let ExpectAt::Response(of, over) = at else { return None };
-    let response = frame.modes?.response.as_ref()?;
-    let of = |row: &ResponseRow| response.amplitudes(row, of).map(|values| values[index]);
-    let all = || response.rows.iter().filter_map(of);
-    // Where nothing limits the motion there is no largest.
-    let unlimited = all().any(|value| !value.is_finite());
-    let finite = || all().filter(|value| value.is_finite());
-    match over {
-        OverFrequencies::Max | OverFrequencies::Abs if unlimited => None,
-        OverFrequencies::At(frequency) => {
-            response.rows.iter().find(|row| row.frequency == frequency).and_then(of).filter(|value| value.is_finite())
-        }
-        OverFrequencies::Max => finite().max_by(f64::total_cmp),
-        OverFrequencies::Min => finite().min_by(f64::total_cmp),
-        OverFrequencies::Abs => finite().max_by(|a, b| a.abs().total_cmp(&b.abs())),
     }
 }
 
@@ -57,23 +37,7 @@ fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     let bodies = model.bodies.iter().map(|body| (body.name.as_str(), body.node));
     let named: Vec<(&str, ResponseOf)> =
         nodes.chain(bodies).map(|(name, node)| (name, ResponseOf::Node(node))).collect();
-    response.rows[frame.rows.clone()].iter().try_for_each(|row| write_row(table, frame, (response, row), &named))
-}
-
-/// The rows of a frequency.
-pub(super) fn write_row(
-    table: &mut dyn WriteRow,
-    frame: &Frame,
-    (response, row): (&Response, &ResponseRow),
-    named: &[(&str, ResponseOf)],
-) -> io::Result<()> {
-    for &(name, of) in named {
-        let Some(values) = response.amplitudes(row, of) else { continue };
-        let mut out = table.row(frame.step, frame.state.time).number(row.frequency).text(name);
-        for value in values {
-            out = if value.is_finite() { out.number(value) } else { out.text("") };
-        }
-        out.end()?;
-    }
-    Ok(())
+    response.rows[frame.rows.clone()]
+        .iter()
+        .try_for_each(|row| response_rows::write(table, frame, (response, row), &named))
 }

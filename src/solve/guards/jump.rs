@@ -6,13 +6,13 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::guards::guard::{Guard, Iterate};
 use crate::step::trial::{Step, TrialMotion};
-use crate::system::Scale;
+use crate::system::{Scale, law_of};
 use crate::tolerances::jump::{ACCURACY, CURVED, DOUBTFUL, LARGEST_TURN, LARGEST_TWIST, LEVER, NOTHING, STILL};
 use crate::workspace::Workspace;
 use base::math::{Vec3, angular, linear};
 use mechanics::materials::Dissipation;
 use mechanics::state::{Configuration, State};
-use model::{Contact, DIRECTIONS};
+use model::DIRECTIONS;
 
 /// Refuses load steps off the path of equilibria and load steps with too large rotations.
 pub struct JumpGuard;
@@ -186,7 +186,7 @@ fn largest_motion(cx: &Context, ws: &Workspace) -> (f64, (usize, usize)) {
 
 fn failure(cx: &Context, (node, dof): (usize, usize), work: f64, stored: f64) -> Failure {
     let label = cx.model.nodes.get(node).map_or_else(String::new, |node| node.label.clone());
-    let is_smooth = |contact: &&Contact| contact.law.is_some_and(|law| law.friction == 0.0);
-    let smooth = cx.model.each::<Contact>().find(is_smooth).map(|contact| contact.name.clone());
+    let laws = cx.system.groups.iter().filter_map(|group| law_of(cx.model, group));
+    let smooth = laws.filter(|(_, law)| law.friction == 0.0).map(|(name, _)| name.to_owned()).next();
     Failure::EquilibriumJumps { label, direction: DIRECTIONS[dof], work, stored, smooth }
 }

@@ -76,11 +76,11 @@ impl Response {
                 _ => None,
             })
         };
-        let has_links = model.output.links || expected().any(|of| matches!(of, ResponseOf::Link(_)));
+        let has_links = model.output.links || expected().any(|of| matches!(of, ResponseOf::LinkForce(_)));
         let links = if has_links { LinkForce::all(at) } else { Vec::new() };
         let expected = expected().filter_map(|of| match of {
             ResponseOf::Node(node) => Some(node),
-            ResponseOf::Link(_) => None,
+            ResponseOf::LinkForce(_) => None,
         });
         let bodies = model.bodies.iter().map(|body| body.node);
         let shown = model.output.nodes.iter().copied().chain(bodies).chain(expected);
@@ -119,7 +119,7 @@ impl Response {
     pub fn amplitudes(&self, row: &ResponseRow, of: ResponseOf) -> Option<[f64; 12]> {
         let components = match of {
             ResponseOf::Node(node) => &row.motions[self.nodes.binary_search(&node).ok()?],
-            ResponseOf::Link(link) => row.links.get(link)?,
+            ResponseOf::LinkForce(link) => row.links.get(link)?,
         };
         let mut values = [0.0; 12];
         for (dof, [real, imaginary]) in components.iter().enumerate() {

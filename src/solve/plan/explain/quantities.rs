@@ -81,16 +81,9 @@ fn times(model: &Model) -> Vec<f64> {
     times
 }
 
-/// The sums of forces and moments on nodes and of pressures on faces, by direction. Weight, motors and pretension are not among them.
-/// "Fx 0 to 1200, Fz -300; the largest force is 4 times the weight".
-fn loads(
-    model: &Model,
-    weight: f64,
-    (excitation, times): (&Excitation, &[f64]),
-    units: Option<&UnitSystem>,
-) -> Option<String> {
+/// The sums of forces and moments by their amplitudes, and those of their sizes: forces that cancel leave rounding of these.
+fn sums(model: &Model) -> (Vec<(Option<usize>, [f64; 6])>, [f64; 2]) {
     let mut sums: Vec<(Option<usize>, [f64; 6])> = Vec::new();
-    // Forces that cancel leave rounding of their sizes.
     let mut terms = [0.0; 2];
     let mut add = |amplitude: Option<usize>, force: Vec3, moment: Vec3| {
         terms[0] += force.norm();
@@ -112,6 +105,18 @@ fn loads(
         let areas = load.faces.iter().flat_map(|face| face.areas(|node| model.nodes[node].x));
         add(load.amplitude, areas.sum::<Vec3>() * -load.pressure, Vec3::zeros());
     }
+    (sums, terms)
+}
+
+/// The sums of forces and moments on nodes and of pressures on faces, by direction. Weight, motors and pretension are not among them.
+/// "Fx 0 to 1200, Fz -300; the largest force is 4 times the weight".
+fn loads(
+    model: &Model,
+    weight: f64,
+    (excitation, times): (&Excitation, &[f64]),
+    units: Option<&UnitSystem>,
+) -> Option<String> {
+    let (sums, terms) = sums(model);
     if sums.is_empty() {
         return None;
     }
