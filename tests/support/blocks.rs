@@ -1,6 +1,7 @@
 //! Elements asked one by one, without a scene around them.
 
-use rdsolve::elements::{ElementBlock, Force, ShellResultants};
+use nalgebra::DMatrix;
+use rdsolve::elements::{ElementBlock, Force, Moduli, ShellResultants};
 use rdsolve::math::{Vec3, rotation};
 use rdsolve::state::{Configuration, Node};
 
@@ -9,6 +10,23 @@ pub fn forces(block: &dyn ElementBlock, now: &Configuration) -> Vec<Force> {
     let mut F = vec![[0.0; 6]; now.nodes.len()];
     block.subtract_forces(now, &mut F);
     F.iter().map(|f| f.map(|c| -c)).collect()
+}
+
+/// The stiffness of all elements together.
+pub fn stiffness(block: &dyn ElementBlock, nodes: &[Node]) -> DMatrix<f64> {
+    let mut K = DMatrix::zeros(6 * nodes.len(), 6 * nodes.len());
+    for e in 0..block.len() {
+        let of = block.nodes(e);
+        let n = 6 * of.len();
+        let mut k = vec![0.0; n * n];
+        block.tangent(e, &Configuration::of(nodes), 0.0, Moduli::Algorithmic, &mut k);
+        for i in 0..n {
+            for j in 0..n {
+                K[(6 * of[i / 6] + i % 6, 6 * of[j / 6] + j % 6)] += k[i * n + j];
+            }
+        }
+    }
+    K
 }
 
 /// Moves a node by `h` along one of its degrees of freedom.

@@ -1,8 +1,8 @@
 //! Elements of six and nine nodes: what one of them, and patches of a few, must do.
 
-use crate::support::blocks::{forces, nudge, resultants};
+use crate::support::blocks::{forces, nudge, resultants, stiffness};
 use crate::support::random::{turn, vector};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::heat::Heat;
@@ -100,22 +100,6 @@ impl Mesh {
     }
 }
 
-fn stiffness(block: &dyn ElementBlock, nodes: &[Node]) -> DMatrix<f64> {
-    let mut K = DMatrix::zeros(6 * nodes.len(), 6 * nodes.len());
-    for e in 0..block.len() {
-        let of = block.nodes(e);
-        let n = 6 * of.len();
-        let mut k = vec![0.0; n * n];
-        block.tangent(e, &Configuration::of(nodes), 0.0, Moduli::Algorithmic, &mut k);
-        for i in 0..n {
-            for j in 0..n {
-                K[(6 * of[i / 6] + i % 6, 6 * of[j / 6] + j % 6)] += k[i * n + j];
-            }
-        }
-    }
-    K
-}
-
 fn at_rest(x: &[Vec3]) -> Vec<Node> {
     x.iter().map(|&x| Node::at_rest(x)).collect()
 }
@@ -153,9 +137,7 @@ fn only_rigid_motions_are_free() {
             };
             let K = stiffness(&*mesh.block(&PLATE, 0.0), &at_rest(&mesh.x));
             assert!((&K - K.transpose()).amax() < 1e-12 * K.amax());
-            let scaled = DMatrix::from_fn(6 * n, 6 * n, |i, j| K[(i, j)] / (K[(i, i)] * K[(j, j)]).sqrt());
-            let mut values: Vec<f64> = scaled.symmetric_eigenvalues().iter().copied().collect();
-            values.sort_by(f64::total_cmp);
+            let values = dense::eigenvalues(&dense::scaled(&K));
             assert!(values[..6].iter().all(|v| v.abs() < 1e-13), "{n}: {values:?}");
             // The weakest is drilling of a node by itself.
             assert!(values[6] > 1e-6, "{n}: {:?}", &values[..10]);
@@ -214,11 +196,7 @@ fn even_strains_in_any_shape() {
             assert!(free.len() > 6 * 4);
             let exact = DVector::from_fn(6 * all, |i, _| given(i / 6)[i % 6]);
             let mut u = exact.clone();
-            free.iter().for_each(|&i| u[i] = 0.0);
-            let Kff = DMatrix::from_fn(free.len(), free.len(), |i, j| K[(free[i], free[j])]);
-            let r = -(&K * &u);
-            let found = Kff.lu().solve(&DVector::from_fn(free.len(), |i, _| r[free[i]])).unwrap();
-            free.iter().zip(found.iter()).for_each(|(&i, found)| u[i] = *found);
+            dense::balance(&K, &free, &mut u);
             // Drilling is held a millionth as much as the rest, and rounding is so much larger.
             let weight = |i: usize| if i % 6 == 5 { 1e-3 } else { 1.0 };
             let error = (0..6 * all).map(|i| weight(i) * (u[i] - exact[i]).abs()).fold(0.0, f64::max);
@@ -349,10 +327,7 @@ fn tension_is_stable() {
                 let inner =
                     |a: usize| mesh.elements.iter().filter(|of| of.contains(&a)).count() > 1 && mesh.x[a].norm() < 0.79;
                 let free: Vec<usize> = (0..K.nrows()).filter(|i| inner(i / 6) || i % 6 > 2).collect();
-                let K = DMatrix::from_fn(free.len(), free.len(), |i, j| {
-                    K[(free[i], free[j])] / (K[(free[i], free[i])] * K[(free[j], free[j])]).sqrt()
-                });
-                let least = K.symmetric_eigenvalues().min();
+                let least = dense::eigenvalues(&dense::scaled(&dense::part(&K, &free)))[0];
                 assert!(least > -1e-13, "{n} nodes, strain {strain}, thickness {thickness}: {least:e}");
             }
         }

@@ -44,12 +44,7 @@ fn matrix(model: &Model, stiffness: bool) -> DMatrix<f64> {
 /// Frequencies in ascending order, Hz: of L⁻¹ K L⁻ᵀ with M = L Lᵀ.
 fn frequencies(model: &Model) -> Vec<f64> {
     let (K, M) = (matrix(model, true), matrix(model, false));
-    let L = M.cholesky().expect("every direction has mass").l();
-    let A = L.solve_lower_triangular(&K).unwrap();
-    let A = L.solve_lower_triangular(&A.transpose()).unwrap();
-    let mut squares: Vec<f64> = ((&A + A.transpose()) * 0.5).symmetric_eigenvalues().iter().copied().collect();
-    squares.sort_by(f64::total_cmp);
-    squares.iter().map(|s| s.max(0.0).sqrt() / TAU).collect()
+    dense::eigenvalues(&dense::by_masses(&K, M)).iter().map(|s| s.max(0.0).sqrt() / TAU).collect()
 }
 
 /// In the plane nothing moves.

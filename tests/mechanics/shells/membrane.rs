@@ -1,13 +1,14 @@
 //! Membranes of elements with drilling rotations: even strains and rank of any shape, beams bent in their plane by one element over
 //! the depth, sheets under tension.
 
-use crate::support::blocks::forces;
+use crate::support::blocks::{forces, stiffness};
 use crate::support::random::vector;
-use nalgebra::{DMatrix, DVector};
+use dense::part;
+use nalgebra::DVector;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
+use rdsolve::elements::ElementBlock;
 use rdsolve::elements::shell::{DRILLING, Plate, Quadrilaterals, ShellGeometry, Triangles};
-use rdsolve::elements::{ElementBlock, Moduli};
 use rdsolve::math::{Vec3, rotation};
 use rdsolve::state::{Configuration, Node};
 
@@ -50,27 +51,6 @@ impl Sheet {
     pub fn rest(&self) -> Vec<Node> {
         self.x.iter().map(|&x| Node::at_rest(x)).collect()
     }
-}
-
-pub fn stiffness(block: &dyn ElementBlock, nodes: &[Node]) -> DMatrix<f64> {
-    let mut K = DMatrix::zeros(6 * nodes.len(), 6 * nodes.len());
-    for e in 0..block.len() {
-        let of = block.nodes(e);
-        let n = 6 * of.len();
-        let mut k = vec![0.0; n * n];
-        block.tangent(e, &Configuration::of(nodes), 0.0, Moduli::Algorithmic, &mut k);
-        for i in 0..n {
-            for j in 0..n {
-                K[(6 * of[i / 6] + i % 6, 6 * of[j / 6] + j % 6)] += k[i * n + j];
-            }
-        }
-    }
-    K
-}
-
-/// The rows and columns `of` a matrix.
-pub fn part(K: &DMatrix<f64>, of: &[usize]) -> DMatrix<f64> {
-    DMatrix::from_fn(of.len(), of.len(), |i, j| K[(of[i], of[j])])
 }
 
 /// A convex quadrilateral or a triangle in the plane, squeezed by `thin` along a direction at random.
@@ -136,9 +116,7 @@ fn even_strains_in_any_shape() {
             // In the plane: three rigid motions. Rotations in units of the element's size.
             let plane: Vec<usize> = (0..6 * corners).filter(|i| [0, 1, 5].contains(&(i % 6))).collect();
             let K = part(&K, &plane);
-            let scaled = DMatrix::from_fn(K.nrows(), K.ncols(), |i, j| K[(i, j)] / (K[(i, i)] * K[(j, j)]).sqrt());
-            let mut values: Vec<f64> = scaled.symmetric_eigenvalues().iter().copied().collect();
-            values.sort_by(f64::total_cmp);
+            let values = dense::eigenvalues(&dense::scaled(&K));
             // What bends is as weak as the square of the thinness, and what drills at short edges as its fourth power.
             assert!(values[2].abs() < 1e-14 / thin.powi(2), "{round} {corners} {thin} {values:?}");
             assert!(values[3] > 1e-3 * thin.powi(4), "{round} {corners} {thin} {values:?}");
@@ -243,8 +221,7 @@ fn unstable(sheet: &Sheet, h: f64, biaxial: bool, motion: impl Fn(&Vec3) -> Vec3
     let least = sheet.x.iter().map(|x| x.y).fold(widest, f64::min);
     let held = |x: &Vec3| x.x < 1e-9 || x.x > 1.0 - 1e-9 || biaxial && (x.y < least + 1e-9 || x.y > widest - 1e-9);
     let free: Vec<usize> = (0..K.nrows()).filter(|i| !held(&sheet.x[i / 6])).collect();
-    let values = part(&K, &free).symmetric_eigenvalues();
-    values.iter().filter(|value| **value < 0.0).count()
+    dense::eigenvalues(&part(&K, &free)).iter().filter(|value| **value < 0.0).count()
 }
 
 /// Tension loads no rotation, whatever the angle between elements: the tangent of stretched sheets stays positive definite, also

@@ -1,8 +1,10 @@
 //! Bending, transverse shear and rank of elements of any shape, down to a thousandth as wide as long; the membrane stands in
 //! [`super::membrane`].
 
-use super::membrane::{Sheet, part, shape, stiffness};
-use nalgebra::{DMatrix, DVector};
+use super::membrane::{Sheet, shape};
+use crate::support::blocks::stiffness;
+use dense::part;
+use nalgebra::DVector;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::shell::{DRILLING, Plate};
@@ -97,9 +99,7 @@ fn rank_of_any_shape() {
             let K = stiffness(&*sheet.block(&plate), &sheet.rest());
             let out: Vec<usize> = (0..6 * corners).filter(|i| [2, 3, 4].contains(&(i % 6))).collect();
             let K = part(&K, &out);
-            let scaled = DMatrix::from_fn(K.nrows(), K.ncols(), |i, j| K[(i, j)] / (K[(i, i)] * K[(j, j)]).sqrt());
-            let mut values: Vec<f64> = scaled.symmetric_eigenvalues().iter().copied().collect();
-            values.sort_by(f64::total_cmp);
+            let values = dense::eigenvalues(&dense::scaled(&K));
             zero = zero.max(values[2].abs().max(values[0].abs()));
             weakest = weakest.min(values[3] / (h * h * thin.powi(2 * corners as i32 - 4)).min(1.0));
         }

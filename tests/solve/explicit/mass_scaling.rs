@@ -83,37 +83,17 @@ fn squares(model: &Model) -> DMatrix<f64> {
     let implicit = Model { solution: Solution { scheme: default_scheme(), ..model.solution.clone() }, ..model.clone() };
     let plan = Plan::new(&implicit, &system, 1);
     let matrices = SceneMatrices::of(&implicit, &system, &plan).unwrap();
-    let n = matrices.unknowns.len();
-    let dense = |of: &Sparse| -> DMatrix<f64> {
-        let mut dense = DMatrix::zeros(n, n);
-        of.entries().for_each(|(i, j, value)| dense[(i, j)] += value);
-        0.5 * (&dense + dense.transpose())
+    let full = |of: &Sparse| -> DMatrix<f64> {
+        let mut full = DMatrix::zeros(of.rows(), of.rows());
+        of.entries().for_each(|(i, j, value)| full[(i, j)] += value);
+        0.5 * (&full + full.transpose())
     };
-    let (K, M) = (dense(&matrices.stiffness), dense(&matrices.mass));
-    let L = M.cholesky().expect("masses").l();
-    let half = L.solve_lower_triangular(&K).unwrap();
-    L.solve_lower_triangular(&half.transpose()).unwrap()
-}
-
-/// The square of the highest frequency, from below, within a hundredth: by powers.
-fn highest(model: &Model) -> f64 {
-    let S = squares(model);
-    let mut x = DVector::from_fn(S.nrows(), |i, _| 1.0 + (i as f64).sin());
-    let mut size = 0.0;
-    for _ in 0..200 {
-        x = &S * x;
-        size = x.norm();
-        x /= size;
-    }
-    size
+    dense::by_masses(&full(&matrices.stiffness), full(&matrices.mass))
 }
 
 /// All squares of frequencies of a scene with the masses that its explicit scheme has, ascending.
 pub(super) fn spectrum(model: &Model) -> Vec<f64> {
-    let S = squares(model);
-    let mut values: Vec<f64> = (&S + S.transpose()).scale(0.5).symmetric_eigenvalues().iter().copied().collect();
-    values.sort_by(f64::total_cmp);
-    values
+    dense::eigenvalues(&squares(model))
 }
 
 /// An element of a twentieth of the length asks for a twentieth of the step; it is given (Δt c/L)² times its mass, and steps are 0.8 of the
@@ -506,7 +486,7 @@ fn thin_parts_take_steps_of_their_length_by_default() {
     for order in [1, 2] {
         for (which, gain) in [(0, 1.4), (1, 6.0)] {
             let model = |key: &str| scene(&thin(key, AUTO, order)[which], &["analysis.plane=off"]);
-            let (own, raised) = (highest(&model(OFF)), spectrum(&model("")));
+            let (own, raised) = (dense::highest(&squares(&model(OFF))), spectrum(&model("")));
             let told = &parts(&model(""))[0];
             assert_eq!((told.heavier, told.added, told.rotary), (0, 0.0, told.elements), "{told:?}");
             let longer = (own / raised.last().unwrap()).sqrt();

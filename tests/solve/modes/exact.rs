@@ -39,12 +39,7 @@ fn dense(sparse: &Sparse) -> DMatrix<f64> {
 /// All angular frequencies squared by L⁻¹ K L⁻ᵀ, M = L Lᵀ, ascending.
 fn all(model: &Model) -> Vec<f64> {
     let [K, M] = matrices(model).each_ref().map(dense);
-    let L = M.cholesky().expect("every direction has mass").l();
-    let A = L.solve_lower_triangular(&K).unwrap();
-    let A = L.solve_lower_triangular(&A.transpose()).unwrap();
-    let mut squares: Vec<f64> = ((&A + A.transpose()) * 0.5).symmetric_eigenvalues().iter().copied().collect();
-    squares.sort_by(f64::total_cmp);
-    squares
+    dense::eigenvalues(&dense::by_masses(&K, M))
 }
 
 /// A cube of 3 by 3 by 3 posts and beams, each between neighbours, whose symmetry makes pairs and triples.
