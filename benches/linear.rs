@@ -1,17 +1,23 @@
 //! Times of plan, factor and solve: the least of many repeats. Arguments keep the structures that
-//! begin with one of them: `cargo bench --bench linear -- chain sheet`.
+//! begin with one of them: `cargo bench --bench linear -- chain sheet`. `dense` is the product of square matrices.
 
 #[path = "../tests/structures/mod.rs"]
 mod structures;
 
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, Par};
 use rdsolve::linear::{Factorization, Solver, Structure};
 use std::time::Instant;
 use structures::{Random, Values, chain, entries, fill, frame, quadratic_chain, sheet, slots};
 
+/// Large factorisations are repeated at least so often.
+const FEWEST: usize = 5;
+
 /// Least seconds of one `call` over about `budget` seconds of rounds, each preceded by `prepare`.
 fn least<T>(subject: &mut T, budget: f64, prepare: impl Fn(&mut T), call: impl Fn(&mut T)) -> f64 {
-    let (begin, mut least) = (Instant::now(), f64::INFINITY);
-    while begin.elapsed().as_secs_f64() < budget {
+    let (begin, mut least, mut rounds) = (Instant::now(), f64::INFINITY, 0);
+    while begin.elapsed().as_secs_f64() < budget || rounds < FEWEST {
+        rounds += 1;
         prepare(subject);
         let start = Instant::now();
         call(subject);
@@ -20,9 +26,32 @@ fn least<T>(subject: &mut T, budget: f64, prepare: impl Fn(&mut T), call: impl F
     least
 }
 
+fn is_wanted(name: &str) -> bool {
+    let mut filters = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).peekable();
+    filters.peek().is_none() || filters.any(|filter| name.starts_with(&filter))
+}
+
+/// The rate that large factorisations are compared with.
+fn dense(n: usize, threads: usize) {
+    let name = format!("dense {n} /{threads}");
+    if is_wanted(&name) {
+        let matrix = |shift: usize| Mat::from_fn(n, n, |i, j| ((i * 7 + j * 3 + shift) % 11) as f64 - 5.0);
+        let subject = &mut (Mat::zeros(n, n), matrix(0), matrix(1));
+        let par = if threads > 1 { Par::rayon(threads) } else { Par::Seq };
+        let seconds = least(subject, 2.0, |_| {}, |(C, A, B)| matmul(C, Accum::Replace, &*A, &*B, 1.0, par));
+        let flops = 2.0 * (n as f64).powi(3);
+        println!("{name:19} {:>67.2} {:>7.2} {flops:>9.2e}", seconds * 1e6, flops / seconds / 1e9);
+    }
+}
+
+/// A square sheet with positions, which dissection needs.
+fn placed_sheet(side: usize) -> Structure {
+    let positions = (0..side * side).map(|node| [(node / side) as f64, (node % side) as f64, 0.0]).collect();
+    Structure { positions, ..sheet(side, side, 6) }
+}
+
 fn measure(name: &str, structure: &Structure, kind: Factorization, values: Values, threads: usize) {
-    let filters: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
-    if !filters.is_empty() && !filters.iter().any(|filter| name.starts_with(filter)) {
+    if !is_wanted(name) {
         return;
     }
     let begin = Instant::now();
@@ -81,9 +110,17 @@ fn main() {
             measure(name, structure, Factorization::Cholesky, values, 1);
         }
     }
-    for (name, structure) in [("frame 15x15x15", frame(15, 15, 15, 6)), ("frame 20x22x23", frame(20, 22, 23, 6))] {
-        for threads in [1, 2] {
-            measure(&format!("{name} /{threads}"), &structure, Factorization::Cholesky, Values::Definite, threads);
+    let large = [
+        ("frame 15x15x15", frame(15, 15, 15, 6)),
+        ("frame 20x22x23", frame(20, 22, 23, 6)),
+        ("large sheet 40x40", placed_sheet(40)),
+        ("large sheet 100x100", placed_sheet(100)),
+        ("large sheet 204x204", placed_sheet(204)),
+    ];
+    for threads in [1, 2] {
+        [2000, 3000].into_iter().for_each(|n| dense(n, threads));
+        for (name, structure) in &large {
+            measure(&format!("{name} /{threads}"), structure, Factorization::Cholesky, Values::Definite, threads);
         }
     }
 }
