@@ -18,8 +18,8 @@ pub struct Amplitude {
     pub points: Maybe<Vec<At<Numbers<2>>>>,
     /// A file with the points instead; the path is relative to the deck. Headers of PEER (.AT2, .VT2, .DT2), ESM, K-NET and CSMIP (volume
     /// 2) are recognized. Their values are read row by row, with the time step and unit of the header. Other files have columns between
-    /// commas, semicolons or blanks, or `rows`. With `units` times of headers and of columns such as `t [ms]` are converted, with a note.
-    /// (table)
+    /// commas, semicolons, tabs or blanks, also as spreadsheets write them, or `rows`. With `units` times of headers and of columns such as
+    /// `t [ms]` are converted, with a note. (table)
     pub file: Maybe<String>,
     /// The columns of time and value in the file, by name or by number from 1; with `time_step` that of the value alone. Default: the only
     /// ones. (table)

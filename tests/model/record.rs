@@ -400,11 +400,13 @@ fn spreadsheets_are_read() {
 /// A first line `count step` is a header if the file has as many values as it says.
 #[test]
 fn a_count_and_a_step_are_a_header() {
-    let text = "Station, NS\n10 0.02\n1 2 3 4\n5 6 7 8\n9 10\n";
+    let text = "Station, acceleration in gal\n10 0.02\n1 2 3 4\n5 6 7 8\n9 10\n";
     for rows in [None, Some(true)] {
         let found = points(text, &RecordSelection { rows, ..select(&[], None) });
         assert_eq!((found.len(), found[0], found[9]), (10, [0.0, 1.0], [9.0 * 0.02, 10.0]));
     }
+    let unit = read("r", text.as_bytes(), &select(&[], None)).unwrap().unit;
+    assert_eq!(unit, Some(RecordUnit::new("gal")));
     assert_eq!(points("10 0.5\n11 0.6\n", &select(&[], None)), [[10.0, 0.5], [11.0, 0.6]]);
 }
 

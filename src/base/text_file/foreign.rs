@@ -5,7 +5,7 @@ const IN_A_DECK: &str = "name it in a deck: `[mesh]` with `file = \"NAME.msh\"`;
 /// The way from a format that is not read.
 const BY_OTHERS: &str = "rdsolve reads meshes as .msh or .inp: convert it, for example by Gmsh or meshio, and name the result in a deck with `[mesh]`";
 
-/// What a file is, if it is known and no deck, with the way to a deck. Reads at most the first 200 lines.
+/// Names a file of another program, and the way from it to a deck. Reads at most the first 200 lines.
 pub fn recognized(text: &str) -> Option<(&'static str, &'static str)> {
     let begin = text.trim_start();
     if begin.starts_with("$MeshFormat") {

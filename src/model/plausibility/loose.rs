@@ -81,7 +81,7 @@ fn tell_of_all_free(
     }
 }
 
-/// True where a load acts to the end; one that throws a part off ends before.
+/// True if a load acts to the end. A load for a throw ends before.
 fn pushes_at_end(model: &Model) -> bool {
     let at_end = |index: usize| model.loading.amplitudes[index].value(model.analysis.end_time);
     model.loading.nodal.iter().any(|load| load.amplitude.is_none_or(|index| at_end(index) != 0.0))

@@ -1,7 +1,10 @@
 //! Records whose values stand in columns.
 
-use super::head::{Head, is_comment, unquoted};
-use super::{MOST_FAULTS, RecordColumn, RecordSelection, RecordUnit, TimeSeries, UnitOfTimes, unit};
+use super::head::{Head, unquoted};
+use super::number::is_comment;
+use super::rows::MOST_FAULTS;
+use super::series::{RecordColumn, RecordSelection, TimeSeries, UnitOfTimes};
+use super::unit::{self, RecordUnit};
 use base::names::{nearest, quoted};
 use base::text_file::{Fault, Text, TextLine, Word};
 

@@ -1,6 +1,7 @@
-//! What stands before the columns of a record: titles, names of columns, and their units.
+//! The lines before the columns of a record: titles, names of columns, and their units.
 
 use super::header;
+use super::number::is_comment;
 use super::unit::{RecordUnit, is_unit, seconds_of};
 use base::text_file::{Fault, Text, TextLine, Word};
 
@@ -73,7 +74,7 @@ fn before_numbers<'t>(text: &Text<'t>, last: usize) -> Result<(Vec<TextLine<'t>>
     }
 }
 
-/// True for a line of values, or for one like the next of which some parts are numbers.
+/// True for a line of values, or for one with some values that has them at the same places as the next line.
 fn begins_numbers(line: TextLine, next: Option<TextLine>) -> bool {
     let values = |line: TextLine| -> Vec<bool> { split(line, separator(line)).iter().map(is_value).collect() };
     let own = values(line);
@@ -85,15 +86,10 @@ fn is_rule(line: TextLine) -> bool {
     line.bytes.len() > 2 && line.bytes.iter().all(|byte| b"-=_*+|,; \t".contains(byte))
 }
 
-/// True for a number, and for what stands in the place of one, such as `nan`, `--` or nothing.
+/// True for a number or its replacement, such as `nan`, `--` or nothing.
 fn is_value(word: &Word) -> bool {
     let text = word.text();
     word.number().is_some() || text.parse::<f64>().is_ok() || !text.contains(char::is_alphabetic)
-}
-
-/// True for a line that begins as comments do.
-pub fn is_comment(line: TextLine) -> bool {
-    matches!(line.bytes.trim_ascii_start().first(), Some(b'#' | b'%' | b'!'))
 }
 
 /// The separator of the columns of a line; `None` for blanks.
@@ -146,7 +142,7 @@ fn names_between(line: TextLine, separator: Option<u8>) -> Vec<String> {
     names
 }
 
-/// The units in names of columns: in brackets as `Acc (g)`, behind a stroke as `a/g`, or last as in `time_s,acc_g` if the first name ends with a unit of time.
+/// The units in names of columns: in brackets as `Acc (g)`, or behind a stroke as `a/g`. Last as in `time_s,acc_g`, if the first names a time.
 fn units_in(names: &[String]) -> Vec<Option<String>> {
     let last = |name: &str| name.rsplit(['_', ' ']).next().unwrap_or_default().to_owned();
     let end_with_units = names.first().is_some_and(|name| last(name) != *name && seconds_of(&last(name)).is_some());

@@ -6,8 +6,7 @@
 //! - K-NET and KiK-net: lines `Sampling Freq(Hz) 100Hz` and `Scale Factor 3920(gal)/6182761`; the last line is `Memo.`.
 //! - CSMIP, volume 2: `5372 points of accel data equally spaced at .010 sec, in cm/sec2`; velocities and displacements follow.
 
-use super::head::is_comment;
-use super::number::{is_number_like, numbers, whole};
+use super::number::{is_comment, is_number_like, numbers, whole};
 use super::unit::RecordUnit;
 use base::text_file::{Fault, Text, TextLine};
 
@@ -65,9 +64,15 @@ pub fn find(path: &str, bytes: &[u8]) -> Result<Option<Header>, Fault> {
 /// The header of a file that begins with the number of its values and the time between two, after lines of text; `None` for others.
 pub fn counted(path: &str, bytes: &[u8]) -> Option<Header> {
     let mut text = Text::new(path, bytes);
+    let mut unit_named = None;
+    let first = loop {
+        let line = text.line()?;
+        if !is_comment(line) && is_number_like(&String::from_utf8_lossy(line.bytes)) {
+            break line;
+        }
+        unit_named = unit_named.or_else(|| unit(line, &words(line)));
+    };
     let lines = std::iter::from_fn(|| text.line()).filter(|line| !is_comment(*line));
-    let mut lines = lines.skip_while(|line| !is_number_like(&String::from_utf8_lossy(line.bytes)));
-    let first = lines.next()?;
     let [count, step] = numbers(first).map(|word| word.number()).collect::<Option<Vec<f64>>>()?.try_into().ok()?;
     // A shorter file might be two columns.
     let is_count = count.fract() == 0.0 && (10.0..1e9).contains(&count) && step > 0.0;
@@ -75,7 +80,7 @@ pub fn counted(path: &str, bytes: &[u8]) -> Option<Header> {
     is_counted.then(|| Header {
         count: Some(count as usize),
         step,
-        unit: None,
+        unit: unit_named,
         factor: 1.0,
         has_offset: false,
         has_more_blocks: false,

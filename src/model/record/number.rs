@@ -66,3 +66,8 @@ pub fn is_number_like(text: &str) -> bool {
     digits.starts_with(|c: char| c.is_ascii_digit())
         || text.split_whitespace().next().is_some_and(|word| word.parse::<f64>().is_ok())
 }
+
+/// True for a line that begins as comments do.
+pub fn is_comment(line: TextLine) -> bool {
+    matches!(line.bytes.trim_ascii_start().first(), Some(b'#' | b'%' | b'!'))
+}

@@ -1,8 +1,7 @@
 //! Values that follow one another along the lines of a file, as most data bases write records.
 
-use super::head::is_comment;
 use super::header::{ACCELERATIONS, Header};
-use super::number::{is_number_like, number, numbers};
+use super::number::{is_comment, is_number_like, number, numbers};
 use base::text_file::{Fault, Text, TextLine};
 
 /// The largest number of errors reported per file.
