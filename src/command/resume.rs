@@ -7,7 +7,7 @@ use super::load::Loaded;
 use super::version::{VERSION, instructions};
 use base::text_file::read_text;
 use results::checkpoint::{Checkpoint, CheckpointOrigin};
-use results::{holds_run, log, result_json};
+use results::{FolderLock, holds_run, log, result_json};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
@@ -138,6 +138,8 @@ fn ended(folder: &Path, (hash, origin): (&str, &CheckpointOrigin)) -> Option<Exi
             return Some(Exit::Usage);
         }
     };
+    // If a run is killed between its result and its end, its lock stays.
+    drop(FolderLock::take(folder));
     say(&format!("there is nothing to resume in `{place}`: the run there has come to its end"));
     if exit != Exit::Done {
         complain(&said("reason"));

@@ -359,8 +359,8 @@ fn time_went_back([begin, end]: [String; 2]) -> String {
 fn singular(label: &str, direction: &str, [open, yielded]: [Option<&str>; 2]) -> String {
     if let (None, Some(part)) = (open, yielded) {
         return format!(
-            "the system is singular at `{label}` in direction {direction}: {part}. The load has passed the limit load, or the structure buckles. \
-             Give a hardening, smaller loads, or `kind = \"dynamic\"` to follow the motion"
+            "the system is singular at `{label}` in direction {direction}: {part}. The load has passed the limit load, a support is missing, or the \
+             structure buckles. Give a hardening, smaller loads, a support, or `kind = \"dynamic\"` to follow the motion"
         );
     }
     let remedy = open.map_or_else(

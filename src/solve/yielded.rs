@@ -1,4 +1,4 @@
-//! The part that yields most, where a load step finds no equilibrium: without hardening it has no stiffness left.
+//! The part that yields most, if a load step finds no equilibrium: without hardening it has no stiffness left.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -25,7 +25,5 @@ fn most_yielded(cx: &Context, state: &State) -> Option<String> {
     let all = deformable.map(|group| (strain(group), &cx.model.parts[group.part]));
     let (strain, part) = all.filter(|(strain, _)| *strain > 0.0).max_by(|a, b| a.0.total_cmp(&b.0))?;
     let (kind, name, strain) = (part.kind().word(), part.name(), to_digits(strain, 2));
-    Some(format!(
-        "{kind} `{name}` yields most, to a plastic strain of {strain}, and resists no more without `hardening_modulus`"
-    ))
+    Some(format!("{kind} `{name}` yields most, to a plastic strain of {strain}"))
 }

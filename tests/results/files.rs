@@ -43,7 +43,7 @@ fn headers_are_those_of_the_interface() {
             "step,time,kinetic,strain,plastic,viscoplastic,damping,links,contact,friction,impact,external,numerical,mechanical,px,py,pz,lx,ly,lz",
         ),
         ("links.csv", "step,time,link,elongation,rate,force,fx,fy,fz,mx,my,mz"),
-        ("contacts.csv", "step,time,contact,touching,gap,fx,fy,fz,mx,my,mz"),
+        ("contacts.csv", "step,time,contact,touching,slipping,gap,fx,fy,fz,mx,my,mz"),
         ("contact_pairs.csv", "step,time,contact,surface,with,touching,fx,fy,fz,mx,my,mz"),
         ("reactions.csv", "step,time,node,direction,value"),
         (
@@ -97,7 +97,7 @@ fn rows_are_the_frames_to_the_last_bit() {
     assert_eq!(table(dir.path(), "reactions.csv").1[1][2..], ["node[0]", "rz", "-1.0"]);
     assert_eq!(table(dir.path(), "sections.csv").1[1][2..6], ["fore & aft", "0", "1", "0.5"]);
     assert_eq!(table(dir.path(), "links.csv").1[0][2..6], ["bumper", "0.1", "-1.0", "7.0"]);
-    assert_eq!(table(dir.path(), "contacts.csv").1[0][2..5], ["seat", "2", "-0.001"]);
+    assert_eq!(table(dir.path(), "contacts.csv").1[0][2..6], ["seat", "2", "1", "-0.001"]);
     let pairs = table(dir.path(), "contact_pairs.csv").1;
     assert_eq!(pairs[0][2..6], ["seat", "arm", "body 0", "1"]);
     assert_eq!(pairs[1][2..6], ["seat", "arm", "body 1", "2"]);

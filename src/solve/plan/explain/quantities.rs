@@ -81,7 +81,7 @@ fn times(model: &Model) -> Vec<f64> {
     times
 }
 
-/// The sums of forces and moments by their amplitudes, and those of their sizes: forces that cancel leave rounding of these.
+/// The sums of forces and moments by amplitude, and the sums of their sizes. Forces that cancel leave rounding of these sizes.
 fn sums(model: &Model) -> (Vec<(Option<usize>, [f64; 6])>, [f64; 2]) {
     let mut sums: Vec<(Option<usize>, [f64; 6])> = Vec::new();
     let mut terms = [0.0; 2];
