@@ -29,7 +29,7 @@ pub fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
 /// Writes the rows of a frequency, one for each of `named`.
 ///
 /// # Errors
-/// Those of input and output.
+/// Errors of writing.
 pub fn write(
     table: &mut dyn WriteRow,
     frame: &Frame,

@@ -4,17 +4,17 @@ use super::source::{CRATES, lines_below};
 
 /// Lines of the sources below src by crate, `program` for what lies beside them.
 const BUDGET: [(&str, usize); 11] = [
-    ("base", 7080),
+    ("base", 7112),
     ("linear", 4265),
     ("mechanics", 36_996),
-    ("deck", 5532),
-    ("import", 11_565),
-    ("model", 30_106),
-    ("solve", 37_387),
+    ("deck", 5534),
+    ("import", 11_569),
+    ("model", 30_335),
+    ("solve", 37_385),
     ("results", 12_604),
     ("study", 4271),
     ("sweep", 1595),
-    ("program", 7219),
+    ("program", 7221),
 ];
 
 #[test]

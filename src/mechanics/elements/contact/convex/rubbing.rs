@@ -17,7 +17,7 @@ pub struct Rubbing {
     pub by_N: Vec6,
     /// Size of the force and moment of the spring, as a force.
     pub pull: f64,
-    /// The largest of that size.
+    /// The largest size of the pull.
     pub limit: f64,
     /// The stretch that the spring keeps.
     pub stretch: Vec3,
