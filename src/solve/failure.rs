@@ -44,7 +44,7 @@ pub enum Failure {
         /// The number of iterations.
         iterations: usize,
         /// The evidence of the cause in the last step.
-        cause: NoConvergence,
+        cause: Box<NoConvergence>,
         /// The part that has opened or gone slack last, while it is, by its name in quotes.
         open: Option<String>,
         /// True where something may slip, and the matrix is the symmetric part of the tangent.

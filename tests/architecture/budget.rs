@@ -10,7 +10,7 @@ const BUDGET: [(&str, usize); 11] = [
     ("deck", 5534),
     ("import", 11_569),
     ("model", 30_335),
-    ("solve", 37_385),
+    ("solve", 37_395),
     ("results", 12_604),
     ("study", 4271),
     ("sweep", 1595),

@@ -31,7 +31,7 @@ fn failures() -> Vec<Failure> {
     };
     let stuck = |cause: NoConvergence, open, lacks_slip| Failure::NotConverged {
         iterations: 20,
-        cause,
+        cause: Box::new(cause),
         open,
         lacks_slip,
         yielded: cause.at_limit.then(|| "shell `wall` yields most".to_owned()),

@@ -128,7 +128,7 @@ fn names_between(line: TextLine, separator: Option<u8>) -> Vec<String> {
     if let Some(separator) = separator {
         let mut reader = csv::ReaderBuilder::new().delimiter(separator).has_headers(false).from_reader(line.bytes);
         return reader.byte_records().next().and_then(Result::ok).map_or(Vec::new(), |record| {
-            let count = record.len() - usize::from(record.iter().last().is_some_and(<[u8]>::is_empty));
+            let count = record.len() - usize::from(record.iter().next_back().is_some_and(<[u8]>::is_empty));
             record.iter().take(count).map(text).collect()
         });
     }

@@ -77,7 +77,7 @@ pub fn counted(path: &str, bytes: &[u8]) -> Option<Header> {
     // A shorter file might be two columns.
     let is_count = count.fract() == 0.0 && (10.0..1e9).contains(&count) && step > 0.0;
     let is_counted = is_count && lines.map(|line| numbers(line).count()).sum::<usize>() == count as usize;
-    is_counted.then(|| Header {
+    is_counted.then_some(Header {
         count: Some(count as usize),
         step,
         unit: unit_named,

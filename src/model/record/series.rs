@@ -1,4 +1,4 @@
-//! What is wanted of a record, and what its file has.
+//! The selection from a record, and the time series of its file.
 
 use super::unit::RecordUnit;
 

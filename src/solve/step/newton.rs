@@ -387,7 +387,14 @@ impl Newton {
         let open = self.matrix.opened_part().or_else(never_closed);
         let lacks_slip = cx.system.rubs() && ws.matrix.solver.is_symmetric();
         let largest = residual::largest(cx, &ws.forces);
-        Failure::NotConverged { iterations: report.iterations, cause, open, lacks_slip, yielded: None, largest }
+        Failure::NotConverged {
+            iterations: report.iterations,
+            cause: Box::new(cause),
+            open,
+            lacks_slip,
+            yielded: None,
+            largest,
+        }
     }
 }
 

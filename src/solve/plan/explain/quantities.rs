@@ -81,9 +81,12 @@ fn times(model: &Model) -> Vec<f64> {
     times
 }
 
+/// Force and moment of the loads with an amplitude.
+type Sum = (Option<usize>, [f64; 6]);
+
 /// The sums of forces and moments by amplitude, and the sums of their sizes. Forces that cancel leave rounding of these sizes.
-fn sums(model: &Model) -> (Vec<(Option<usize>, [f64; 6])>, [f64; 2]) {
-    let mut sums: Vec<(Option<usize>, [f64; 6])> = Vec::new();
+fn sums(model: &Model) -> (Vec<Sum>, [f64; 2]) {
+    let mut sums: Vec<Sum> = Vec::new();
     let mut terms = [0.0; 2];
     let mut add = |amplitude: Option<usize>, force: Vec3, moment: Vec3| {
         terms[0] += force.norm();
