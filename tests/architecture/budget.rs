@@ -9,7 +9,7 @@ const BUDGET: [(&str, usize); 11] = [
     ("mechanics", 36_996),
     ("deck", 5534),
     ("import", 11_569),
-    ("model", 30_335),
+    ("model", 30_340),
     ("solve", 37_395),
     ("results", 12_604),
     ("study", 4271),

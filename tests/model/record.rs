@@ -365,6 +365,7 @@ fn columns_name_their_units() {
         ("Time s,Acc cm/s2", acceleration(0.01)),
         ("% Time(s) Accel(g)", acceleration(9.80665)),
         ("# units: g, dt = 1 s\nt,a", acceleration(9.80665)),
+        ("# acceleration in direction x\n# units: gal\nt,a", acceleration(0.01)),
         ("El Centro 1940 NS\nTIME SERIES IN UNITS OF G\nt,a", acceleration(9.80665)),
         ("Corrected Acceleration\n\nTime [sec]\tAcceleration [g]", acceleration(9.80665)),
         ("t;a [m s\u{207b}\u{b2}]\n-----", acceleration(1.0)),
@@ -400,7 +401,7 @@ fn spreadsheets_are_read() {
 /// A first line `count step` is a header if the file has as many values as it says.
 #[test]
 fn a_count_and_a_step_are_a_header() {
-    let text = "Station, acceleration in gal\n10 0.02\n1 2 3 4\n5 6 7 8\n9 10\n";
+    let text = "Station, acceleration in direction x\nUnits: gal\n10 0.02\n1 2 3 4\n5 6 7 8\n9 10\n";
     for rows in [None, Some(true)] {
         let found = points(text, &RecordSelection { rows, ..select(&[], None) });
         assert_eq!((found.len(), found[0], found[9]), (10, [0.0, 1.0], [9.0 * 0.02, 10.0]));

@@ -48,8 +48,8 @@ impl<'t> Head<'t> {
             Some(units) => units.iter().map(|unit| Some(bare(unit).to_owned())).collect(),
             None => units_in(&names),
         };
-        let unit = lines.iter().find_map(|line| header::unit(*line, &header::words(*line)));
-        Ok(Head { separator, names, units, unit: unit.filter(|unit| unit.known.is_some()), first })
+        let unit = lines.iter().find_map(|line| header::known_unit(*line));
+        Ok(Head { separator, names, units, unit, first })
     }
 }
 

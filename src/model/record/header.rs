@@ -70,7 +70,7 @@ pub fn counted(path: &str, bytes: &[u8]) -> Option<Header> {
         if !is_comment(line) && is_number_like(&String::from_utf8_lossy(line.bytes)) {
             break line;
         }
-        unit_named = unit_named.or_else(|| unit(line, &words(line)));
+        unit_named = unit_named.or_else(|| known_unit(line));
     };
     let lines = std::iter::from_fn(|| text.line()).filter(|line| !is_comment(*line));
     let [count, step] = numbers(first).map(|word| word.number()).collect::<Option<Vec<f64>>>()?.try_into().ok()?;
@@ -167,12 +167,17 @@ impl Found {
 }
 
 /// The line in capitals; a tab has the place of a blank.
-pub fn words(line: TextLine) -> String {
+fn words(line: TextLine) -> String {
     String::from_utf8_lossy(line.bytes).trim().to_ascii_uppercase().replace('\t', " ")
 }
 
+/// The unit of a motion that a title or a comment names; "acceleration in direction x" names none.
+pub fn known_unit(line: TextLine) -> Option<RecordUnit> {
+    unit(line, &words(line)).filter(|unit| unit.known.is_some())
+}
+
 /// The unit that a line names, as the file writes it.
-pub fn unit(line: TextLine, words: &str) -> Option<RecordUnit> {
+fn unit(line: TextLine, words: &str) -> Option<RecordUnit> {
     const BEFORE: [&str; 5] = ["UNITS OF ", "UNITS: ", "ACCELERATION IN ", "VELOCITY IN ", "DISPLACEMENT IN "];
     let place = BEFORE.iter().find_map(|before| words.find(before).map(|place| place + before.len()))?;
     // Upper case has the same places: only letters of ASCII are changed.
